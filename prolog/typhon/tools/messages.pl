@@ -311,6 +311,10 @@ stopped(ended(Outcome)) --> [ 'has ended, ' ], term_lines(Outcome).
 lost_since(existence_error(agent, _)) -->
     !,
     [ 'There is no such agent, or its process has died' ].
+lost_since(resource_error(backlog)) -->
+    !,
+    [ 'Too many messages wait for agents that cannot be reached \c
+       (setting typhon_backlog:messages)' ].
 lost_since(resource_error(mailbox)) -->
     !,
     [ 'Its mailbox is full, as its host allows no more' ].

@@ -6,10 +6,11 @@
             retries_go_on/0,
             post_tried/0
           ]).
+:- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [append/3, member/2]).
-:- use_module(library(settings), [setting/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/fifo', [fifo_empty/2]).
 :- use_module('../base/durable', [durable/6]).
 :- use_module('../base/durable_changes',
@@ -40,6 +41,9 @@ post_tried/0.
     typhon_scheduler:fire/2,
     typhon_scheduler:over/2.
 
+:- setting(messages, positive_integer, 100 000,
+           "Messages that wait, in all, for agents that cannot be reached now").
+
 :- dynamic waits/4.             % Id, Queue, Tries, State: idle or tried
 
                 /*******************************
@@ -56,12 +60,42 @@ backlog(Id) :-
 
 %!  backlog_add(+Id, +Letter) is det.
 %
-%   Add Letter to the backlog of Id.
+%   Add Letter to the backlog of Id.  If as many messages wait as the setting
+%   `messages` allows, they are lost.
 
 backlog_add(Id, Letter) :-
-    durable_number(N),
-    durable_put(wait, Id, N, Letter),
-    add(Id, Letter).
+    (   has_space(Letter)
+    ->  durable_number(N),
+        durable_put(wait, Id, N, Letter),
+        add(Id, Letter)
+    ;   Letter = letter(Mail, _),
+        mail_lost(resource_error(backlog), Id, Mail)
+    ).
+
+has_space(Letter) :-
+    setting(messages, Most),
+    flag(typhon_backlog, Count, Count),
+    messages([Letter], More),
+    Count+More =< Most.
+
+%   put(+Queue, +Letter), emptied(+Queue, -Letters:list): the flag has the number
+%   of messages in all queues.
+
+put(Queue, Letter) :-
+    counted([Letter], 1),
+    thread_send_message(Queue, Letter).
+
+emptied(Queue, Letters) :-
+    fifo_empty(Queue, Letters),
+    counted(Letters, -1).
+
+counted(Letters, Sign) :-
+    messages(Letters, Count),
+    flag(typhon_backlog, All, All+Sign*Count).
+
+messages(Letters, Count) :-
+    aggregate_all(sum(N), ( member(letter(Mail, _), Letters), length(Mail, N) ),
+                  Count).
 
 %   A journal has letters one by one; a saved network has all letters of an
 %   agent as one item.
@@ -78,12 +112,12 @@ letter_item(Id, Letter) :-
 
 backlog_item(Id, Tries, Letters) :-
     waits(Id, Queue, Tries, _),
-    fifo_empty(Queue, Letters),
-    maplist(thread_send_message(Queue), Letters).
+    emptied(Queue, Letters),
+    maplist(put(Queue), Letters).
 
 backlog_restore(Id, Tries, Letters) :-
     message_queue_create(Queue),
-    maplist(thread_send_message(Queue), Letters),
+    maplist(put(Queue), Letters),
     assertz(waits(Id, Queue, Tries, idle)).
 
 add(Id, Letter) :-
@@ -92,7 +126,7 @@ add(Id, Letter) :-
     ;   message_queue_create(Queue),
         assertz(waits(Id, Queue, 0, idle))
     ),
-    thread_send_message(Queue, Letter).
+    put(Queue, Letter).
 
 %   backlog_begin(+Id, -Letters:list, -Tries) is semidet.
 %
@@ -101,7 +135,7 @@ add(Id, Letter) :-
 backlog_begin(Id, Letters, Tries) :-
     retract(waits(Id, Queue, Tries, idle)),
     !,
-    fifo_empty(Queue, Letters),
+    emptied(Queue, Letters),
     assertz(waits(Id, Queue, Tries, tried)).
 
 %   backlog_again(+Id, +Letters:list, +Tries) is det.
@@ -111,11 +145,11 @@ backlog_begin(Id, Letters, Tries) :-
 backlog_again(Id, Letters, Tries) :-
     retract(waits(Id, Queue, _, tried)),
     !,
-    fifo_empty(Queue, Newer),
+    emptied(Queue, Newer),
     append(Letters, Newer, All),
     durable_drop_all(wait, Id),
     maplist(note_letter(Id), All),
-    maplist(thread_send_message(Queue), All),
+    maplist(put(Queue), All),
     assertz(waits(Id, Queue, Tries, idle)).
 
 note_letter(Id, Letter) :-
@@ -151,9 +185,9 @@ post_tried :-
 backlog_leaves(Id) :-
     durable_drop_all(wait, Id),
     (   waits(Id, Queue, _, tried)
-    ->  fifo_empty(Queue, Newer),
+    ->  emptied(Queue, Newer),
         maplist(note_letter(Id), Newer),
-        maplist(thread_send_message(Queue), Newer)
+        maplist(put(Queue), Newer)
     ;   true
     ).
 
@@ -164,7 +198,7 @@ backlog_leaves(Id) :-
 
 backlog_all(Id, Letters) :-
     (   retract(waits(Id, Queue, _, idle))
-    ->  fifo_empty(Queue, Letters),
+    ->  emptied(Queue, Letters),
         durable_drop_all(wait, Id),
         message_queue_destroy(Queue)
     ;   Letters = []
@@ -174,6 +208,7 @@ backlog_all(Id, Letters) :-
 
 typhon_runtime:ending(after) :-
     retract(waits(_, Queue, _, _)),
+    emptied(Queue, _),
     message_queue_destroy(Queue),
     fail.
 

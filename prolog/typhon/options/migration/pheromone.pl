@@ -231,7 +231,7 @@ make_space(Host, Place, Now) :-
 displace(Host, Place) :-
     (   has_space(Host)
     ->  true
-    ;   aggregate_all(max(Count-Next), here(Host, Next, Count), max(_-Most)),
+    ;   aggregate_all(max(Count, Next), here(Host, Next, Count), max(_, Most)),
         tuple_take(Place, pheromone(_, _, _, Most, _)),
         displace(Host, Place)
     ).

@@ -2,7 +2,13 @@
 :- use_module('../../../lib/common').
 :- needs([cells]).
 :- use_module('../../../lib/cell_inmate').
+:- use_module('../../../lib/fixtures').
 :- use_module(library(plunit)).
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(lists), [append/2, member/2]).
+:- use_module(library(random), [random_between/3, random_member/2]).
+:- use_module(library(typhon/options/cell/cell_frames),
+              [cell_frame_write/2, cell_text_term/2]).
 :- use_module(library(typhon)).
 
 /** <module> Frames that no cell should send
@@ -16,8 +22,52 @@ test(forged_frames_are_rejected, Through == []) :-
     findall(Name-test_send(Frame)-ended(lost(cell(Reason))),
             frame(Name, Frame, Reason), Checks),
     with_inmates(through(Checks, Through)).
+test(long_texts_are_no_numbers, Wrong == []) :-
+    with_hosts([c-[policy(guarded), cell(owner), quota([seconds(60)])]],
+               findall(What, ( long_text(What, Codes),
+                               \+ comes_back(What, Codes) ), Wrong)).
+test(frames_with_long_texts_are_read_back,
+     [forall(between(1, 60, _)), Back == Text]) :-
+    random_text(Text),
+    with_frame(Text, Bytes),
+    cell_text_term(Bytes, Back).
 
 :- end_tests(cell_frames).
+
+long_text(digits, [0'7]).
+long_text(letters, [0'z]).
+long_text(blanks, [0'\s]).
+long_text(words, `one two `).
+long_text(base, `36'`).
+
+comes_back(What, Part) :-
+    create([ (main :- numlist(1, 35000, Ns), findall(C, ( member(_, Ns),
+                          member(C, Part) ), Cs),
+                      string_codes(S, Cs), result(S-S)) ], A, [host(c)]),
+    catch(agent_result(A, S-S, 60), error(_, _), fail),
+    string_length(S, Length),
+    length(Part, Unit),
+    ( Length =:= 35000*Unit -> true ; throw(What) ).
+
+random_text(Text-Atom) :-
+    random_between(1, 6, Count),
+    length(Runs, Count),
+    maplist(run, Runs),
+    append(Runs, Codes),
+    string_codes(Text, Codes),
+    atom_codes(Atom, Codes).
+
+run(Run) :-
+    random_between(1, 40 000, Length),
+    random_member(Code, `17zaé\s\n'"\\,`),
+    length(Run, Length),
+    maplist(=(Code), Run).
+
+%   Bytes is the body of the frame of Term.
+
+with_frame(Term, Bytes) :-
+    with_output_to(string(Frame), cell_frame_write(current_output, Term)),
+    sub_string(Frame, 4, _, 0, Bytes).
 
 %   frame(-Name, -Frame, -Reason): the cell is ended for this Reason.
 

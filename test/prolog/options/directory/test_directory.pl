@@ -190,3 +190,23 @@ found_again :-
     found(alpha, shop, [radius(1)], [A-offer(shop, [open], H1)]).
 
 :- end_tests(directory_in_the_journal).
+
+:- begin_tests(offers_are_bounded).
+
+test(offers_of_an_agent_are_bounded_in_number_and_size,
+     [Formal,Count,Bytes] == [resource_error(offers),99,true]) :-
+    with_hosts([a-[policy(guarded), cell(none)]],
+               ( create([ (main :- length(L, 30000), maplist(=(0'x), L),
+                                   string_codes(S, L),
+                                   catch(offer(large, [S]), error(F, _), true),
+                                   string_length(S, _), sub_string(S, 0, 900, _, T),
+                                   forall(between(1, 99, N), offer(o(N), [T])),
+                                   assertz(s(F))),
+                          on_message(_, _) ], A, [host(a)]),
+                 wait_until(fact_of(A, s(Formal)), 20),
+                 host_offers(a, Offers),
+                 length(Offers, Count),
+                 term_size(Offers, Cells),
+                 ( Cells < 99*200 -> Bytes = true ; Bytes = Cells ) )).
+
+:- end_tests(offers_are_bounded).

@@ -1,7 +1,9 @@
 :- module(test_pheromone, []).
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/fixtures').
+:- use_module('../../../lib/peers').
 :- use_module(library(plunit)).
+:- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(typhon)).
 
@@ -266,3 +268,79 @@ distances([From|Froms], Edges, D, Known, Distances) :-
     distances(Tos, Edges, D1, Known1, Distances).
 
 :- end_tests(pheromone_network).
+
+%   Hosts b and c are linked; c has pheromones of d, and is flooded from b.
+
+:- begin_tests(pheromones_are_bounded).
+
+test(flood_of_an_agent_displaces_only_its_own, Left == [40,10,kept]) :-
+    flooded(forall(between(1, 5000, N), emit(flood(N))), Left).
+test(large_problem_is_refused, Formal == resource_error(pheromone)) :-
+    line([b, c],
+         ( guest([ (main :- length(L, 3000), maplist(=(x), L),
+                            catch(emit(L), error(F, _), true), result(F)) ], A),
+           agent_result(A, Formal, 30) )).
+test(emissions_are_counted_by_the_quota_of_facts,
+     Outcome = raised(error(resource_error(facts), _))) :-
+    with_hosts([b-[quota([facts(100)])]],
+               capturing(( guest([ (main :- repeat, emit(x), fail) ], A),
+                           agent_join(A, Outcome, 30) ), _)).
+test(process_of_another_host_cannot_pass_the_bound, Left-Rest == [40,10,kept]-[]) :-
+    with_settings([typhon_pheromone:pheromones=50],
+        with_peers([p-[host([])]],
+            line([d, c], ( kept(c), pheromones(10), sent_by_peer(Left, Rest) )))).
+
+:- end_tests(pheromones_are_bounded).
+
+guest(Clauses, A) :-
+    create(Clauses, A, [host(b)]).
+
+flooded(Goal, Left) :-
+    with_settings([typhon_pheromone:pheromones=50],
+        line([b, c, d], ( kept(c), pheromones(10),
+                          guest([(main :- Goal, result(done))], A),
+                          agent_result(A, done, 60),
+                          left_at(c, flood(5000), Left) ))).
+
+%   Ten pheromones of d are on c.
+
+kept(_) :-
+    forall(between(1, 10, N), emit(d, kept(N), [span(1), period(1000)])).
+
+pheromones(Count) :-
+    wait_until(( remote(c, findall(N, sense(pheromone(kept(N), _, _, _, _)), Ns)),
+                 length(Ns, Count) ), 20).
+
+left_at(Host, Last, [Flood,Kept,kept]) :-
+    wait_until(remote(Host, sense(pheromone(Last, _, _, _, _))), 30),
+    remote(Host, findall(P, sense(pheromone(P, _, _, _, _)), Ps)),
+    aggregate_all(count, member(flood(_), Ps), Flood),
+    aggregate_all(count, member(kept(_), Ps), Kept).
+
+%   The peer sends what emit/2 never does: a hundred thousand pheromones, and
+%   malformed ones.
+
+sent_by_peer(Left, Rest) :-
+    address(c, C),
+    atomic_list_concat([_,Endpoint], @, C),
+    peer_host(p, P),
+    get_time(Now),
+    S = signal(flood(N), P, 1.0e9, 1, 1.0e9, Now, 1),
+    peer_do(p, forall(between(1, 5000, N),
+                      typhon_messaging:endpoint_post(
+                          Endpoint, pheromone,
+                          pheromone(c, smelt(P, S))))),
+    left_at(c, flood(5000), Left),
+    length(Long, 5000),
+    maplist(=(x), Long),
+    Bad = [ smelt(d, S), smelt(P, none), smelt(P, signal(_, _, a, b, c, d, e)),
+            smelt(P, signal(Long, P, 1, 1, 1.0e9, Now, 1)), x, withdrawn(1, _) ],
+    capturing(( peer_do(p, forall(member(B, Bad),
+                                  typhon_messaging:endpoint_post(
+                                      Endpoint, pheromone, pheromone(c, B)))),
+                peer_do(p, typhon_messaging:endpoint_post(
+                               Endpoint, pheromone,
+                               pheromone(c, smelt(P, signal(last, P, 1.0e9, 1,
+                                                            1.0e9, Now, 1))))),
+                wait_until(remote(c, sense(pheromone(last, _, _, _, _))), 30) ),
+              Rest).

@@ -1,0 +1,112 @@
+:- module(test_reports, []).
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/fixtures').
+:- use_module(library(plunit)).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(random), [random_between/3]).
+:- use_module(library(thread), [concurrent_maplist/2]).
+:- use_module(library(typhon)).
+:- use_module(library(typhon/kernel/base/reports)).
+
+/** <module> Warnings that can be caused as often as an agent or a peer wants
+
+*Threading*: one test at a time, but for threads that report together.
+*/
+
+:- begin_tests(reports).
+
+test(first_of_a_kind_is_printed_and_the_others_are_counted, Seen == [1,1,9]) :-
+    capturing(( forall(between(1, 10, _), report(warning, k, g, m(k))),
+                forall(between(1, 1, _), report(warning, l, g, m(l))),
+                reports_end ), Messages),
+    findall(N, shown(N, _, Messages), Seen).
+test(no_report_is_lost, Sum == 4000) :-
+    capturing(( concurrent_maplist(reports(1000), [1,2,3,4]), reports_end ),
+              Messages),
+    aggregate_all(sum(N), shown(N, _, Messages), Sum).
+test(kinds_and_groups_are_bounded, Kinds-Groups-Sum == true-true-3000) :-
+    capturing(( forall(between(1, 1000, K),
+                       forall(member(G, [K,x,y]),
+                              report(warning, kind(K), G, m(K)))) ), Printed),
+    aggregate_all(count, typhon_reports:burst(_, _), K),
+    ( K =< 65 -> Kinds = true ; Kinds = K ),
+    forall(between(1, 100, G), report(warning, kind(1), G, m(1))),
+    aggregate_all(count, typhon_reports:tally(kind(1), _, _, _), Count),
+    ( Count =< 17 -> Groups = true ; Groups = Count ),
+    capturing(reports_end, Rest),
+    aggregate_all(sum(N), ( member(List, [Printed,Rest]), shown(N, _, List) ),
+                  Sum0),
+    Sum is Sum0-100.
+test(level_of_a_summary_is_the_worst, Level == error) :-
+    capturing(( forall(member(L, [informational,informational,error]),
+                       report(L, k, g, m(k))),
+                reports_end ), Messages),
+    once(member(Level-typhon(more(_, _)), Messages)).
+test(name_of_a_group_is_data, [nondet, Lines == true]) :-
+    Bad = 'a\e[31m\nWarning: ~w ~@',
+    capturing(( report(warning, k, Bad, m(k)), report(warning, k, Bad, m(k)),
+                reports_end ), Messages),
+    once(member(_-typhon(more(K, Groups)), Messages)),
+    message_to_codes_safe(typhon(more(K, Groups)), Text),
+    (   sub_string(Text, _, _, _, "\e")
+    ->  Lines = Text
+    ;   Lines = true
+    ).
+
+:- end_tests(reports).
+
+shown(1, M, Messages) :-
+    member(_-m(M), Messages).
+shown(N, K, Messages) :-
+    member(_-typhon(more(K, Groups)), Messages),
+    member(N-_, Groups).
+
+reports(Count, Group) :-
+    forall(between(1, Count, _),
+           ( random_between(1, 5, K),
+             report(warning, k(K), Group, m(K)) )).
+
+message_to_codes_safe(Message, Text) :-
+    phrase(prolog:message(Message), Lines),
+    with_output_to(string(Text),
+                   print_message_lines(current_output, '', Lines)).
+
+%   An agent sends to no agent, and to one that does not understand, as fast as
+%   its quotas let it.
+
+:- begin_tests(floods_of_warnings).
+
+test(agent_causes_one_message_for_each_second, Sum-Few == 6000-true) :-
+    get_time(T0),
+    capturing(with_hosts([ g-[policy(guarded), cell(none)] ], flood), Messages),
+    get_time(T1),
+    findall(M, flood_message(M, Messages), Ms),
+    aggregate_all(sum(N), ( member(M, Ms), count_of(M, N) ), Sum),
+    length(Ms, Count),
+    ( Count =< 2*(3+T1-T0) -> Few = true ; Few = Count ).
+
+:- end_tests(floods_of_warnings).
+
+flood :-
+    create([ (on_message(_, last) :- dispose) ], Deaf, [host(g)]),
+    create([ (main :- s(D),
+                      forall(between(1, 3000, _),
+                             ( send(nobody, x), send(D, x) )),
+                      send(D, last)) ], Agent, [host(g), facts([s(Deaf)])]),
+    agent_join(Agent, done, 60),
+    agent_join(Deaf, _, 60).
+
+flood_message(M, Messages) :-
+    member(_-typhon(M), Messages),
+    count_of(M, _).
+
+count_of(undeliverable(_, _, _, _), 1).
+count_of(undeliverable(_, _, _, _, More), N) :- N is More+1.
+count_of(message_failed(_, _, _), 1).
+count_of(message_undone(_, _, _, _), 1).
+count_of(more(lost_messages, Groups), N) :- sum_of(Groups, N).
+count_of(more(messages_not_understood, Groups), N) :- sum_of(Groups, N).
+
+sum_of(Groups, Sum) :-
+    aggregate_all(sum(N), member(N-_, Groups), Sum).
