@@ -40,10 +40,9 @@ Source is the host that emitted it, Next the neighbour from which it came, Until
 the host time at which it has evaporated.  Of two with the same problem and
 source the stronger is kept, and of two that are equally strong the newer.
 
-A host has a bounded number of pheromones, of a bounded size.  If it is full
-those that have evaporated are dropped, else the oldest one that came from the
-neighbour from which most have come.  So a flood displaces no pheromones of other
-neighbours.
+A host has a bounded number of pheromones, of a bounded size, and at most half of
+that number from one neighbour, so a flood leaves space for others.  What does
+not fit is dropped, and spreads no further.
 
 *Threading*: any thread.  A worker stores and forwards arriving pheromones.
 */
@@ -193,7 +192,7 @@ handle_news(withdrawn(Source, Problem), Host, Place) :-
     ).
 
 %   store(+Host, +Place, +Now, +Pheromone) is semidet: fails if Place has a
-%   better pheromone.
+%   better pheromone, or no space.
 
 store(Host, Place, Now, Pheromone) :-
     Pheromone = pheromone(Problem, Source, Strength, Next, Until),
@@ -202,7 +201,7 @@ store(Host, Place, Now, Pheromone) :-
          U0 > Now,
          better(S0, U0, Strength, Until) ),
     ignore(remove(Place, Problem, Source)),
-    make_space(Host, Place, Now),
+    has_space(Host, Place, Now, Next),
     tuple_leave(Place, Pheromone, pheromone(Host, Next)).
 
 %   The tuples are counted, since agents can take them, and leave others like
@@ -219,27 +218,20 @@ count(Host, Next, Change) :-
 typhon_host_parts:ends(Host) :-
     retractall(here(Host, _, _)).
 
-make_space(Host, Place, Now) :-
-    (   has_space(Host)
+has_space(Host, Place, Now, Next) :-
+    (   has_space(Host, Next)
     ->  true
     ;   forall(( tuple_sense(Place, pheromone(Problem, Source, _, _, Until)),
                  number(Until), Until =< Now ),
                ignore(remove(Place, Problem, Source))),
-        displace(Host, Place)
+        has_space(Host, Next)
     ).
 
-displace(Host, Place) :-
-    (   has_space(Host)
-    ->  true
-    ;   aggregate_all(max(Count, Next), here(Host, Next, Count), max(_, Most)),
-        tuple_take(Place, pheromone(_, _, _, Most, _)),
-        displace(Host, Place)
-    ).
-
-has_space(Host) :-
-    aggregate_all(sum(Count), here(Host, _, Count), Sum),
+has_space(Host, Next) :-
     setting(pheromones, Most),
-    Sum < Most.
+    aggregate_all(sum(Count), here(Host, _, Count), Sum),
+    Sum < Most,
+    ( here(Host, Next, Count) -> 2*Count < Most ; true ).
 
 better(S0, _, S, _) :-
     S0 > S.
