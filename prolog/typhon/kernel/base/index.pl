@@ -173,6 +173,8 @@ part_setting(ball_cells,typhon_guard_calls,positive_integer,10000,'Parts of a te
 part_setting(births,typhon_birth,positive_integer,20000,'Agents whose proofs of ownership are kept','options/identity/birth').
 part_setting(browsers,typhon_page_browsers,positive_integer,32,'Browsers that may be connected to a page at a time','tools/page/browsers').
 part_setting(cells,typhon_cells,positive_integer,16,'Processes for agents of untrusted owners, at most','options/cell/cells').
+part_setting(cells,typhon_offers,positive_integer,1000,'Cells of an offer, at most; eight characters of a text count as one','options/directory/offers').
+part_setting(cells,typhon_pheromone,positive_integer,1000,'Cells of the problem of a pheromone, at most; eight characters of a text count as one','options/migration/pheromone').
 part_setting(certificates,typhon_keys,positive_integer,256,'Certificates whose holder is cached','options/keys').
 part_setting(channel_seconds,typhon_channel,number,300,'Seconds for which posts are kept for a process that has left, and is not known to keep a journal','options/journal/channel').
 part_setting(clause_cells,typhon_guard_limits,positive_integer,200000,'Clauses that untrusted agents add have at most so many parts','options/guard/guard_limits').
@@ -201,6 +203,7 @@ part_setting(order_seconds,typhon_processes,number,60,'Seconds for a process to 
 part_setting(patience,typhon_event_sender,number,30,'Seconds that a disconnected watching process has to answer','options/watch/event_sender').
 part_setting(patience,typhon_virtual,number,10,'Virtual time that stands still for so long is reported','options/virtual').
 part_setting(pause,typhon_quota_enforcer,between(0.0,1.0),0.8,'Agents that run for long where there are quotas pause for this part of the time while others run','options/quotas/quota_enforcer').
+part_setting(pheromones,typhon_pheromone,positive_integer,1000,'Pheromones that a host has at most','options/migration/pheromone').
 part_setting(python,typhon_helper_process,atom,'','The Python of helpers; \'\' for that of the system','bridges/helper/process').
 part_setting(python,typhon_nxt_link,atom,'','The Python of the helpers of bricks; \'\' for that of all helpers','bridges/nxt/link').
 part_setting(queue,typhon_subscribers,positive_integer,1000,'Messages of bridges that may wait for an agent','bridges/common/subscribers').
