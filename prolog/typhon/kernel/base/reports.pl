@@ -13,8 +13,8 @@
 
 The first report of a kind in a second is printed.  Further ones are counted,
 for each group of the kind, such as an agent or an address, and when the second
-is over one message reports their numbers.  So a flood does not fill the log, and
-does not go unnoticed.
+is over one message reports their numbers.  So a flood does not fill the log,
+and does not go unnoticed.
 
 Time passes by the clock of the system.  The hook wakes/1 calls reports_due/0
 when a second is over; without it the next report does that, or reports_end/0

@@ -78,8 +78,8 @@ has_space(Letter) :-
     messages([Letter], More),
     Count+More =< Most.
 
-%   put(+Queue, +Letter), emptied(+Queue, -Letters:list): the flag has the number
-%   of messages in all queues.
+%   put(+Queue, +Letter), emptied(+Queue, -Letters:list): the flag has the
+%   number of messages in all queues.
 
 put(Queue, Letter) :-
     counted([Letter], 1),

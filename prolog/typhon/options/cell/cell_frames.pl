@@ -157,8 +157,8 @@ like_number(Bytes, Before) :-
     ).
 
 %   unlike_numbers(+Bytes0, +Term, -Bytes): Bytes is text of Term in which no
-%   block looks like a part of a long number, if Term has no such number.  Then a
-%   block that does is in quotes, with the blocks that it extends to: three of
+%   block looks like a part of a long number, if Term has no such number.  Then
+%   a block that does is in quotes, with the blocks that it extends to: three of
 %   their characters become escape sequences.  The first ten may be part of one
 %   already.
 

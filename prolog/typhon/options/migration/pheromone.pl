@@ -40,9 +40,9 @@ Source is the host that emitted it, Next the neighbour from which it came, Until
 the host time at which it has evaporated.  Of two with the same problem and
 source the stronger is kept, and of two that are equally strong the newer.
 
-A host has a bounded number of pheromones, of a bounded size, and at most half of
-that number from one neighbour, so a flood leaves space for others.  What does
-not fit is dropped, and spreads no further.
+A host has a bounded number of pheromones, of a bounded size, and at most half
+of that number from one neighbour, so a flood leaves space for others.  What
+does not fit is dropped, and spreads no further.
 
 *Threading*: any thread.  A worker stores and forwards arriving pheromones.
 */

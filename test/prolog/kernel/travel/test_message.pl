@@ -275,3 +275,26 @@ test(hint_of_an_agent, true(Ns == [1])) :-
                  numbers(A, Ns) )).
 
 :- end_tests(hints).
+
+:- begin_tests(backlog_is_bounded).
+
+test(messages_beyond_the_bound_are_lost, Waiting-Left == 50-0) :-
+    with_settings([typhon_backlog:messages=50],
+        capturing(with_hosts([alpha],
+                             ( forall(between(1, 200, N), unknown_gets(N)),
+                               flag(typhon_backlog, Waiting, Waiting) )), Ms)),
+    flag(typhon_backlog, Left, Left),
+    findall(N, ( member(_-typhon(M), Ms), lost_in(M, N) ), Ns),
+    sum_list(Ns, Lost),         % and some that waited, as the host stops
+    assertion(between(150, 200, Lost)).
+
+:- end_tests(backlog_is_bounded).
+
+unknown_gets(N) :-
+    format(atom(To), 'x~d.1.2@g@127.0.0.1:none', [N]),
+    passed_on(To, N).
+
+lost_in(undeliverable(resource_error(backlog), _, _, _), 1).
+lost_in(more(lost_messages, Groups), N) :-
+    findall(C, member(C-_, Groups), Cs),
+    sum_list(Cs, N).
