@@ -107,7 +107,7 @@ pictures: tools page-tools ## make all pictures of README and doc; KINDS=page
 
 vscode:                 ## pack the extension for VS Code, by vsce from npm
 	@mkdir -p out
-	@cd app/editors/vscode && npx --yes @vscode/vsce@3 package \
+	@cd app/editors/vscode && ../../../.ci/vsce package \
 	    --allow-missing-repository --out ../../../out/typhon-agents.vsix
 
 doc: tools              ## the documents as a site, in out/doc

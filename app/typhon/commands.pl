@@ -105,6 +105,8 @@ option(host, authors, atom, 'A,B',
        'admit only programs signed by one of these authors').
 option(host, tokens, atom, 'A,B',
        'admit only agents with one of these tokens').
+option(host, policy, atom, 'P',
+       'guarded or a file of rules: run agents in cells, under these rules').
 option(host, consult, file(read), 'FILE',
        'clauses for the place of the host (may be repeated)').
 option(host, log, atom, 'ADDRESS',

@@ -23,7 +23,7 @@ options_for(What, Options, For) :-
 option_for(host, Options, Option) :-
     member(Option, Options),
     functor(Option, Name, 1),
-    memberchk(Name, [port, bind, capacity, journal, sync]).
+    memberchk(Name, [port, bind, capacity, policy, journal, sync]).
 option_for(host, Options, Option) :-
     log_events_option(Options, Option).
 option_for(host, Options, tokens(Tokens)) :-

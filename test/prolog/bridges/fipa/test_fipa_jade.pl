@@ -3,7 +3,7 @@
 % Our agents and those of a real JADE, in both directions.
 
 :- use_module('../../../lib/common').
-:- needs(['default-jdk-headless', maven]).
+:- needs(['default-jdk-headless', curl]).
 :- use_module('../../../lib/fipa_agents').
 :- use_module('../../../lib/fixtures').
 :- use_module('../../../lib/jade').
