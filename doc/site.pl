@@ -73,7 +73,7 @@ sources(Work) :-
     settings(Work, Docs).
 
 document_file(File) :-
-    member(Pattern, ['README.md', 'CHANGELOG.md', 'doc/*.md',
+    member(Pattern, ['README.md', 'SECURITY.md', 'CHANGELOG.md', 'doc/*.md',
                      'doc/course/*.md']),
     expand_file_name(Pattern, Files),
     member(File, Files).
