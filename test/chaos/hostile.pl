@@ -5,11 +5,17 @@
 Each agent has a seed of its own, from the one given on: `--count 1 --seed I`
 repeats one.  Harm is printed with the seeds between which it was detected;
 the exit status is then 1. The end of the process is harm, too: its seeds are
-the last that were printed. */
+the last that were printed.
+
+Then the kinds of hostile_kinds.pl are attempted, each as often, and a table
+shows how many attempts of each class were held. */
 
 :- use_module('../lib/common').
+:- use_module(hostile_kinds).
 :- use_module(hostile_run).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(main), [argv_options/3, main/0]).
+:- use_module(library(option), [option/3]).
 
 :- initialization(main, main).
 
@@ -35,11 +41,22 @@ opt_meta(cell, 'KIND').
 
 main(Argv) :-
     argv_options(Argv, _, Options),
+    option(count(Count), Options, 500),
     hostile([progress(true)|Options], Faults),
-    forall(member(Fault, Faults), format("~p~n", [Fault])),
-    length(Faults, Count),
-    format("~d faults~n", [Count]),
-    (   Faults == []
-    ->  true
-    ;   halt(1)
+    hostile_kinds(Options, Rows),
+    forall(( member(row(Class, _, Failed), [row(mixed, Count, Faults)|Rows]),
+             member(Fault, Failed) ),
+           format("~w: ~p~n", [Class, Fault])),
+    format("~w~t~10|~t~w~20|~t~w~30|~t~w~40|~n",
+           [class, attempts, held, failed]),
+    forall(member(Row, [row(mixed, Count, Faults)|Rows]), print_row(Row)),
+    (   member(row(_, _, [_|_]), [row(mixed, Count, Faults)|Rows])
+    ->  halt(1)
+    ;   true
     ).
+
+print_row(row(Class, Attempts, Faults)) :-
+    length(Faults, Failed),
+    Held is Attempts-Failed,
+    format("~w~t~10|~t~D~20|~t~D~30|~t~D~40|~n",
+           [Class, Attempts, Held, Failed]).
