@@ -17,7 +17,7 @@ ENTRY_POINTS = prolog/typhon.pl app/typhon.pl test/run.pl \
 # check/0 without the options of predicates: for read_term/3, 9.2.9 has
 # the types wrong.
 CHECKS = list_undefined, list_trivial_fails, list_format_errors, \
-    list_redefined, list_void_declarations, list_autoload
+    list_redefined, list_void_declarations
 
 .PHONY: help tools tools-peers tools-all tools-ros demo demo-robots demo-ros \
     demo-page page-tools thesis thesis-real test chaos scripted fuzz \

@@ -22,6 +22,7 @@
   - modules that import each other in a circle;
   - a file of the kernel that names an option;
   - a hook that its module does not declare, or that no module defines;
+  - a module that inherits from `user`, or calls what it does not import;
   - an index of what is loaded on demand that is not up to date (`index`
     writes it, prolog/typhon/kernel/base/index.pl);
   - a clause that handles what another process sends, which

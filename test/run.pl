@@ -71,6 +71,7 @@ plain(locale).
 plain(attackers).
 plain(kernel).
 plain(single).
+plain(user_program).
 
 main(Names) :-
     suite_files(Names, Files0),

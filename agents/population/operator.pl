@@ -9,7 +9,7 @@
 :- use_module('../../prolog/typhon/kernel/base/options', [check_options/2]).
 :- use_module('../lib/settings', [setting_facts/2]).
 :- use_module('../lib/starts', [starts/4]).
-:- use_module(library(apply), [maplist/2, maplist/4]).
+:- use_module(library(apply), [maplist/2, maplist/4, maplist/5]).
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2, nth1/3]).
 

@@ -2,11 +2,12 @@
           [ problem/1,          % -Problem
             report/1            % +Problem
           ]).
-:- use_module(library(apply), [maplist/2]).
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2, nth1/3]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(index, [index_problem/1]).
 :- use_module(kinds, [kinds_problem/1]).
+:- use_module(loaded, [loaded_problem/1]).
 :- use_module(seams).
 :- use_module(tree).
 
@@ -71,6 +72,8 @@ problem(Problem) :-
     index_problem(Problem).
 problem(Problem) :-
     kinds_problem(Problem).
+problem(Problem) :-
+    loaded_problem(Problem).
 
 %   has_predicate(+File, +Module, +PI) is semidet: File, of Module, defines,
 %   declares or imports PI, or a predicate with more arguments, as closures have.
@@ -231,6 +234,8 @@ says(stale_kinds, 'doc/wire.md: its table of kinds is not what it is to be: run 
      doc/layers.pl -- kinds', []).
 says(stale_index(F), '~w: is not what it is to be: run doc/layers.pl -- index',
      [F]).
+says(inherits(M), '~w does not inherit from system', [M]).
+says(not_imported(M, PI), '~w calls ~w, and does not import it', [M, PI]).
 says(hook_without_definition(F, H), '~w: no module defines its hook ~w',
      [F, H]).
 

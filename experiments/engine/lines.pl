@@ -23,10 +23,9 @@ A panel for each measure, a line for each value of a parameter.
 *Threading*: no state; any thread.
 */
 
-%!  lines_picture(+Study, +Name-Title, +Options, +Runs, +Directory, -Picture) is
-%!      semidet.
+%!  lines_picture(+Study, +Titled, +Options, +Runs, +Dir, -Picture) is semidet.
 %
-%   Writes the data files of lines(Options).  Picture is Height-Variables, for
+%   Titled is Name-Title.  Writes the data files of lines(Options).  Picture is Height-Variables, for
 %   lines.gp.  Fails if Options select no run.
 
 lines_picture(Study, Name-Title, Options, Runs0, Directory, Height-Variables) :-

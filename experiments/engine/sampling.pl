@@ -6,7 +6,7 @@
 :- use_module('../../prolog/typhon/kernel/base/prng',
               [ chance_float/3, chance_hash/2, chance_sample/5, chance_seed/2
               ]).
-:- use_module(library(apply), [maplist/3]).
+:- use_module(library(apply), [maplist/3, maplist/4]).
 :- use_module(library(lists), [nth0/3, numlist/3]).
 
 /** <module> Sampled parameters

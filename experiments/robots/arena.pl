@@ -6,7 +6,8 @@
           ]).
 :- use_module('../../prolog/typhon/kernel/base/own_thread', [in_own_thread/1]).
 :- use_module(library(apply), [maplist/3]).
-:- use_module(library(filesex), [delete_directory_and_contents/1]).
+:- use_module(library(filesex), 
+              [delete_directory_and_contents/1, relative_file_name/3]).
 :- use_module(library(lists), [append/2, append/3]).
 :- use_module(library(option), [option/2]).
 :- use_module(library(process),

@@ -9,6 +9,7 @@
 :- use_module('../../prolog/typhon/kernel/program/paths', []).
 :- use_module('../../prolog/typhon/kernel/program/programs', [payload_load/2]).
 :- use_module(library(apply), [maplist/3]).
+:- use_module(library(filesex), [relative_file_name/3]).
 
 /** <module> Hosts that have robots
 

@@ -22,6 +22,7 @@
             get_new_name_alpha/1        % -Name
           ]).
 :- use_module(library(apply), [maplist/2]).
+:- use_module(library(gensym), [gensym/2]).
 :- use_module(library(lists), [member/2, reverse/2, subtract/3, union/3]).
 :- use_module(library(random), [random_member/2]).
 :- use_module('../typhon', [remote/2]).

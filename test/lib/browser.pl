@@ -32,7 +32,9 @@ Driven by chromedriver, through the W3C WebDriver protocol.
 :- use_module(library(http/http_client),
               [http_delete/3, http_get/3, http_post/4]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(process), [process_create/3, process_kill/2, process_wait/2]).
+:- use_module(library(process), 
+              [ process_create/3, process_kill/1, process_kill/2,
+                process_wait/2 ]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 
 :- meta_predicate with_browser(-, 0), browser_hold(+, +, 0).

@@ -27,6 +27,7 @@ packages that not every machine has.
 the whole process, so no other test should run meanwhile.
 */
 
+:- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(filesex),
               [ chmod/2,
                 delete_directory_and_contents/1,

@@ -1,4 +1,5 @@
 :- module(typhon_problem_text, []).
+:- use_module(library(apply), [maplist/3]).
 :- use_module('../kernel/base/error_text', [error_lines/3]).
 :- use_module('../kernel/base/names', [names_joined/3]).
 :- use_module('../kernel/program', [problem_error/3]).

@@ -4,7 +4,7 @@
             goal_named/4                % +Clauses, +Lists, +Goal, -Named
           ]).
 :- use_module(library(apply), [maplist/2]).
-:- use_module(library(lists), [append/3, member/2, nth1/3]).
+:- use_module(library(lists), [append/3, member/2, nth1/3, nth1/4]).
 :- use_module('../kernel/base/text', [print_clause/3]).
 :- use_module('../kernel/program',
               [clause_parts/3, goals_body/2]).

@@ -7,6 +7,7 @@
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(error), [permission_error/3, resource_error/1]).
+:- use_module(library(lists), [append/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/base/bounds', [bounded/2]).
 :- use_module(connection, [way_send/2]).

@@ -3,6 +3,7 @@
             gate_refused/4              % +Host, +From, +Agent, +Reason
           ]).
 :- use_module(library(lists), [member/2]).
+:- autoload(library(terms), [term_size/2]).
 :- use_module('../base/bounds', [memory_short/1]).
 :- use_module('../program', [code_known/2, code_receive/2]).
 :- use_module('../host',

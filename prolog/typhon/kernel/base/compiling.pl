@@ -3,6 +3,7 @@
             compiling_end/1,            % +Flags
             compiling_load/1            % +Files
           ]).
+:- set_module(base(system)).
 :- use_module(library(debug), []).      % from 9.2 on it defines a flag
 :- use_module(library(lists), [member/2]).
 
@@ -11,6 +12,9 @@
 Arithmetic is compiled; debug/3 is kept. Predicates are imported, or declared
 by autoload/2, and not searched for: with a search library(settings) would load
 library(predicate_options), which takes as long as ten modules of this library.
+
+Modules of Typhon inherit from `system`, as those of SWI-Prolog's library do.
+So no predicate, operator, expansion or flag of module `user` changes them.
 
 *Threading*: any thread; the flags are those of the thread.
 */
@@ -43,3 +47,54 @@ compiling_load(Files) :-
 flag(optimise, true).
 flag(optimise_debug, false).
 flag(autoload, explicit).
+
+                /*******************************
+                *           MODULES            *
+                *******************************/
+
+:- dynamic root/1.                      % Directory of the distribution
+
+:- module_property(typhon_compiling, file(File)),
+   atom_concat(Root, 'prolog/typhon/kernel/base/compiling.pl', File),
+   retractall(root(_)),
+   assertz(root(Root)).
+
+%   own_file(+File) is semidet: it belongs to Typhon, and is no program of an
+%   agent or a user in the same directory.
+
+own_file(File) :-
+    root(Root),
+    atom_concat(Root, Path, File),
+    own_folder(Folder),
+    sub_atom(Path, 0, _, _, Folder),
+    !.
+
+own_folder('prolog/').
+own_folder('agents/').
+own_folder('app/').
+own_folder('bench/').
+own_folder('doc/').
+own_folder('examples/').
+own_folder('experiments/').
+own_folder('test/').
+
+%   Files that load this module have been declared before it.
+
+:- forall(( current_module(Module), module_property(Module, file(File)),
+            own_file(File) ),
+          set_module(Module:base(system))).
+
+:- multifile system:term_expansion/2.
+:- dynamic system:term_expansion/2.
+
+:- public inherits_from_system/1.
+
+inherits_from_system(Module) :-
+    atom(Module),
+    prolog_load_context(source, File),
+    own_file(File).
+
+system:term_expansion((:- module(Module, Exports)),
+                      [ (:- module(Module, Exports)),
+                        (:- set_module(Module:base(system))) ]) :-
+    typhon_compiling:inherits_from_system(Module).

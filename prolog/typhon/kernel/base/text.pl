@@ -19,6 +19,7 @@ thread and are restored.
 
 :- autoload(library(error), [resource_error/1, syntax_error/1]).
 :- autoload(library(listing), [portray_clause/3]).
+:- autoload(library(lists), [member/2]).
 :- autoload(library(memfile), [free_memory_file/1, memory_file_to_string/3,
                                  new_memory_file/1, open_memory_file/4]).
 

@@ -252,7 +252,8 @@ typhon_time:leave(real) :-
 leave(Me) :-
     (   run_queue(_),
         retract(worker(Me))
-    ->  thread_at_exit(thread_detach(Me))   % an abort is not reported then
+    ->  prolog_listen(this_thread_exit, thread_detach(Me))
+                                        % an abort is not reported then
     ;   true                            % stopping the pool joins it
     ).
 

@@ -24,7 +24,7 @@ acceptor gives and takes them, the thread of a client reports its progress and
 returns its own.
 */
 
-:- use_module(library(aggregate), [aggregate_all/3]).
+:- autoload(library(aggregate), [aggregate_all/3]).
 :- use_module(library(error), [syntax_error/1]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(pairs), [group_pairs_by_key/2, pairs_keys_values/3]).

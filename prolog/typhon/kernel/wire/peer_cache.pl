@@ -23,6 +23,7 @@ error is recorded. The number of addresses is bounded, the oldest are discarded.
 *Threading*: any thread; a mutex serializes changes.
 */
 
+:- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/bounds', [bounded/2]).
 :- use_module('../base/durable', [durable/5]).

@@ -1,5 +1,8 @@
 :- module(typhon_cell_inside, []).
 :- use_module(library(lists), [member/2]).
+:- use_module(library(prolog_wrap), [wrap_predicate/4]).
+:- use_module(library(settings), [set_setting/2]).
+:- use_module(library(terms), [term_size/2]).
 :- use_module('../../kernel/base/on_demand', [on_demand_load/2]).
 :- use_module('../../kernel/base/trees', [is_tree/2]).
 :- use_module('../../kernel/program',

@@ -8,7 +8,7 @@
             is_control/1,               % @Goal
             extended/3                  % +Closure, +Extra, -Goal
           ]).
-:- use_module(library(apply), [maplist/3]).
+:- use_module(library(apply), [maplist/3, maplist/4]).
 :- use_module(library(assoc), [get_assoc/3]).
 :- use_module(library(lists), [append/3]).
 :- use_module('../../kernel/program', [control/1]).

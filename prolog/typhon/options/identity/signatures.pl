@@ -186,6 +186,7 @@ payload_hash(payload(Name, PIs0, Clauses), Hash) :-
     flag(typhon_payload_module, N, N+1),
     atom_concat('payload ', N, Module),
     set_module(Module:class(temporary)),
+    set_module(Module:base(system)),
     call_cleanup(maplist(stored(Module), Sorted, Stored),
                  '$destroy_module'(Module)),
     program_hash(program(Name, PIs, [payload(Name)], Stored), Hash).

@@ -89,6 +89,7 @@ forget_all(Log) :-
 
 declare(Log) :-
     set_module(Log:class(temporary)),
+    set_module(Log:base(system)),
     dynamic([ Log:counted/4, Log:added/4, Log:erased/4, Log:unsure/2,
               Log:queried_until/1 ]).
 
@@ -323,7 +324,8 @@ state_replayed(state(Empty, Clauses), Changes, Latest) :-
     gensym('typhon replay ', Module),
     setup_call_cleanup(
         set_module(Module:class(temporary)),
-        ( forall(member(PI, Empty), dynamic(Module:PI)),
+        ( set_module(Module:base(system)),
+          forall(member(PI, Empty), dynamic(Module:PI)),
           agent_add(Clauses, Module),
           forall(( member(List, Changes), member(Change, List) ),
                  replay(Change, Module)),

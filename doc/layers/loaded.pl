@@ -1,0 +1,49 @@
+:- module(layers_loaded, [loaded_problem/1]).   % -Problem
+:- use_module(library(lists), [member/2]).
+:- use_module(library(prolog_codewalk), [prolog_walk_code/1]).
+:- use_module(tree).
+
+/** <module> What shows once all modules are loaded
+
+All modules of Typhon are loaded, as in a process without autoloading:
+
+  - each inherits from `system`, so that no definition of a user is in its way;
+  - each imports, or declares by autoload/2, what it calls, also in arguments
+    of meta predicates.
+
+*Threading*: the main thread.
+*/
+
+%!  loaded_problem(-Problem) is nondet.
+
+loaded_problem(Problem) :-
+    forall(product_module(File, _), use_module(File, [])),
+    set_prolog_flag(autoload, false),
+    (   product_module(_, Module),
+        \+ import_module(Module, system),
+        Problem = inherits(Module)
+    ;   prolog_walk_code([ autoload(false), undefined(trace), source(false),
+                           on_trace(layers_loaded:keep) ]),
+        missing(Module, PI),
+        Problem = not_imported(Module, PI)
+    ).
+
+product_module(File, Module) :-
+    member(Folder, ['prolog/', 'agents/', 'app/', 'experiments/', 'doc/']),
+    inside(Folder, Start),
+    module_of(File, Module),
+    atom_concat(Start, _, File).
+
+:- dynamic missing/2.                   % Module, PI
+
+%   Library(main) defines the hooks opt_type/3 and its like where it needs them.
+
+:- public keep/3.
+
+keep(Module:Goal, _, _) :-
+    functor(Goal, Name, Arity),
+    (   module_of(_, Module),
+        \+ sub_atom(Name, 0, _, _, opt_)
+    ->  assertz(missing(Module, Name/Arity))
+    ;   true
+    ).

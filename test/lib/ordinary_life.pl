@@ -1,0 +1,53 @@
+:- module(test_ordinary_life, []).
+
+/** <module> What a user does with the library, in a process of its own
+
+A network of two processes, an agent that visits the other host, a message, a
+log, the page. The program prints what came of it, the same each time, and
+ends.
+
+*Threading*: the main thread.
+*/
+
+:- use_module(common, [with_tmp_dir/1]).
+:- use_module(pages, [ask/3, with_page/3]).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(readutil), [read_file_to_terms/3]).
+:- use_module(library(typhon)).
+
+:- initialization(life, main).
+
+life :-
+    with_tmp_dir(life).
+
+life(Dir) :-
+    directory_file_path(Dir, log, Log),
+    setup_call_cleanup(
+        network_start(ring(2), Network, [processes(2), log(Log)]),
+        with_page([], Base, life(Network, Base)),
+        network_stop(Network)),
+    read_file_to_terms(Log, Events, []),
+    findall(What, member(event(_, _, _, What), Events), Logged),
+    format("~q~n", [Logged]).
+
+life(Network, Base) :-
+    network_property(Network, hosts([Here, There])),
+    agent_create(clauses([ (:- agent(visitor, [state([seen/1])])),
+                           (main :-
+                               receive(_-go(To)),
+                               home(Home),
+                               move(To),
+                               assertz(seen("a string")),
+                               log([1.5, 'An atom']),
+                               move(Home),
+                               seen(What),
+                               result(What)) ]),
+                 Agent, [host(Here)]),
+    agent_send(Agent, go(There)),
+    agent_result(Agent, Seen, 30),
+    remote(There, X is 6*7),
+    ask(Base, _{ask:"survey"}, Survey),
+    dict_pairs(Survey.answer, _, Pairs),
+    findall(Key, member(Key-_, Pairs), Keys),
+    format("~q~n", [life(Seen, X, Keys)]).

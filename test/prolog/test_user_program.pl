@@ -1,0 +1,142 @@
+:- module(test_user_program, []).
+:- use_module('../lib/common').
+
+% A program of a user, and the flags that it sets, do not change the library.
+
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(plunit)).
+:- use_module(library(random), [random_permutation/2]).
+
+%   lives(+Lines, -Trouble) is det.
+%
+%   A file of Lines is loaded first, then the library is used as always.
+%   Trouble is [] if nothing was other than without Lines.
+
+lives(Lines, Trouble) :-
+    lives([], Lines, Trouble).
+
+lives(Args, Lines, Trouble) :-
+    with_tmp_dir(lives(Args, Lines, Trouble)).
+
+lives(Args, Lines, Trouble, Dir) :-
+    directory_file_path(Dir, 'program.pl', File),
+    setup_call_cleanup(
+        open(File, write, Out),
+        forall(member(Line, Lines), format(Out, "~w~n", [Line])),
+        close(Out)),
+    project_file('test/lib/ordinary_life.pl', Life),
+    project_file(prolog, Library),
+    atom_concat('library=', Library, Path),
+    append(Args, ['-p', Path, '-f', File, Life], All),
+    run_swipl(All, [timeout(120)], Status, Said, Warned),
+    findall(Line, ( member(Line, [Status, Said, Warned]), \+ usual(Line) ),
+            Trouble).
+
+usual(exit(0)).
+usual("").
+usual("life(\"a string\",42,[agents,hosts,time])\n\c
+       [created,[1.5,'An atom'],ended(done)]\n").
+
+%   defines(-PI): of system, or of an autoloaded library, if users may define it.
+
+defines(Name/Arity) :-
+    current_predicate(Name, system:Head),
+    functor(Head, Name, Arity),
+    \+ sub_atom(Name, 0, _, _, $).
+defines(Name/Arity) :-
+    '$in_library'(Name, Arity, _).
+
+may_define(Name/Arity) :-
+    functor(Head, Name, Arity),
+    setup_call_cleanup(
+        set_module(test_user_names:class(temporary)),
+        catch(assertz(test_user_names:Head),
+              error(permission_error(_, _, _), _), fail),
+        '$destroy_module'(test_user_names)).
+
+%   fact(+Always, +PI, -Line): Line defines PI, with a fact that is always
+%   true, or with one that is true of what the library never passes.
+
+fact(Always, Name/Arity, Line) :-
+    functor(Head, Name, Arity),
+    (   Always == true
+    ->  true
+    ;   Head =.. [_|Args],
+        maplist(=('of the user'), Args)
+    ),
+    format(string(Line), "~q.", [Head]).
+
+program(PIs, [":- use_module(library(typhon))."|Facts]) :-
+    findall(Fact, ( member(PI, PIs), random_fact(PI, Fact) ), Facts).
+
+random_fact(PI, Fact) :-
+    Always is random(2),
+    (   Always =:= 1
+    ->  fact(true, PI, Fact)
+    ;   fact(false, PI, Fact)
+    ).
+
+%   culprits(+Lines, -Culprits): one line is enough to change what the library
+%   does.
+
+culprits([First|Facts], Culprits) :-
+    lives([First|Facts], Trouble),
+    (   Trouble == []
+    ->  Culprits = []
+    ;   Facts = [Fact]
+    ->  Culprits = [Fact-Trouble]
+    ;   length(Facts, N),
+        Half is N//2,
+        length(Some, Half),
+        append(Some, Rest, Facts),
+        culprits([First|Some], Culprits0),
+        (   Culprits0 = [_|_]
+        ->  Culprits = Culprits0
+        ;   culprits([First|Rest], Culprits)
+        )
+    ).
+
+parts([], _, []) :-
+    !.
+parts(List, N, [Part|Parts]) :-
+    length(Part, N),
+    append(Part, Rest, List),
+    !,
+    parts(Rest, N, Parts).
+parts(List, _, [List]).
+
+:- begin_tests(user_program).
+
+test(without_definitions, Trouble == []) :-
+    lives([":- use_module(library(typhon))."], Trouble).
+
+test(any_predicate_may_be_defined, Culprits == []) :-
+    names(Count),
+    seed(Seed),
+    set_random(seed(Seed)),
+    findall(PI, ( defines(PI), may_define(PI) ), All0),
+    sort(All0, All),
+    random_permutation(All, Drawn0),
+    length(Drawn, Count),
+    append(Drawn, _, Drawn0),
+    parts([get_time/1, string_concat/3, split_string/4|Drawn], 50, Parts),
+    findall(Culprit,
+            ( member(Part, Parts), program(Part, Lines),
+              culprits(Lines, Some), member(Culprit, Some) ),
+            Culprits).
+
+names(Count) :-
+    from_environment('TYPHON_NAMES', 300, Count).
+
+seed(Seed) :-
+    from_environment('TYPHON_SEED', 1, Seed).
+
+from_environment(Name, _, Number) :-
+    getenv(Name, Atom),
+    !,
+    atom_number(Atom, Number).
+from_environment(_, Number, Number).
+
+:- end_tests(user_program).
