@@ -19,7 +19,9 @@ a folder, with an interface of the same name beside it:
 */
 
 :- use_module(typhon/kernel/base/compiling,
-              [compiling_begin/1, compiling_end/1]).
+              [compiling_begin/1, compiling_end/1, compiling_refused/0]).
+
+:- if(\+ compiling_refused).
 
 :- compiling_begin(Flags),
    nb_setval(typhon_flags, Flags).
@@ -72,3 +74,5 @@ a folder, with an interface of the same name beside it:
 :- nb_getval(typhon_flags, Flags),
    compiling_end(Flags),
    nb_delete(typhon_flags).
+
+:- endif.

@@ -3,6 +3,7 @@
 
 % A program of a user, and the flags that it sets, do not change the library.
 
+:- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [append/3, member/2]).
@@ -29,7 +30,7 @@ lives(Args, Lines, Trouble, Dir) :-
     project_file('test/lib/ordinary_life.pl', Life),
     project_file(prolog, Library),
     atom_concat('library=', Library, Path),
-    append(Args, ['-p', Path, '-f', File, Life], All),
+    append(Args, ['-q', '-p', Path, '-f', File, Life], All),
     run_swipl(All, [timeout(120)], Status, Said, Warned),
     findall(Line, ( member(Line, [Status, Said, Warned]), \+ usual(Line) ),
             Trouble).
@@ -126,6 +127,39 @@ test(any_predicate_may_be_defined, Culprits == []) :-
             ( member(Part, Parts), program(Part, Lines),
               culprits(Lines, Some), member(Culprit, Some) ),
             Culprits).
+
+user_sets((:- set_prolog_flag(autoload, false))).
+user_sets((:- set_prolog_flag(protect_static_code, true))).
+user_sets((:- set_prolog_flag(double_quotes, codes))).
+user_sets((:- set_prolog_flag(double_quotes, atom))).
+user_sets((:- set_prolog_flag(generate_debug_info, false))).
+user_sets((:- op(0, xfx, =), op(0, xfy, :), op(0, yfx, -), op(200, xfy, log))).
+user_sets((:- dynamic(goal_expansion/2))).
+user_sets((goal_expansion(member(_, _), fail))).
+user_sets((term_expansion((_ :- _), []))).
+
+%   What is set first holds when the library is loaded, what is set later when
+%   it loads its parts.
+
+test(any_flag_may_be_set, [forall(user_sets(Set)), Trouble == []]) :-
+    format(string(Line), "~k.", [Set]),
+    Use = ":- use_module(library(typhon)).",
+    lives([Line, Use], Before),
+    lives([Use, Line], After),
+    append(Before, After, Trouble).
+
+test(optimised, Trouble == []) :-
+    lives(['-O'], [":- use_module(library(typhon))."], Trouble).
+
+test(unsupported_options_are_named, [ forall(member(Option, [ '--traditional',
+                                                 '--no-threads' ])),
+                                      Lines == 2 ]) :-
+    project_file(prolog, Library),
+    atom_concat('library=', Library, Path),
+    run_swipl([Option, '-p', Path, '-g', 'use_module(library(typhon))', '-t',
+               halt], [], exit(0), "", Said),
+    sub_string(Said, _, _, _, Option),
+    aggregate_all(count, sub_string(Said, _, _, _, "\n"), Lines).
 
 names(Count) :-
     from_environment('TYPHON_NAMES', 300, Count).

@@ -235,6 +235,8 @@ typhon_questions:ended_elsewhere(Name, Agent) :-
     wired_ended(Network, Name, Agents),
     last(Agents, Agent).
 
+:- '$clausable'(property/2).
+
 property(hosts(Addresses), Network) :-
     wired_hosts(Network, Addresses).
 property(edges(Edges), Network) :-

@@ -316,8 +316,7 @@ ordered(Order, ReplyTo) :-
 serve :-
     thread_get_message(Message),
     (   Message = order(Order, ReplyTo)
-    ->  functor(Order, What, _),
-        debug(typhon(network), 'order: ~w', [What]),
+    ->  debug(typhon(network), 'order: ~W', [Order, [max_depth(2)]]),
         answer(Order, Answer),
         endpoint_reply(ReplyTo, Answer),
         serve

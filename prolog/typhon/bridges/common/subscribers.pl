@@ -119,10 +119,12 @@ unsubscribed(Service, Host, Key, Agent) :-
     inbox_key(Key, Text),
     (   subscribed(Text, _, Service, Host, _, _)
     ->  true
-    ;   ignore(catch(wanted(Service, Host, Key, false),
-                     error(Formal, _),
-                     debug(typhon(bridge), '~p', [Formal])))
+    ;   ignore(catch(wanted(Service, Host, Key, false), error(Formal, _),
+                     not_unsubscribed(Formal)))
     ).
+
+not_unsubscribed(Formal) :-
+    debug(typhon(bridge), '~p', [Formal]).
 
 %!  subscription(?Service, ?Host, ?Key) is nondet.
 

@@ -1,7 +1,8 @@
 :- module(typhon_compiling,
           [ compiling_begin/1,          % -Flags
             compiling_end/1,            % +Flags
-            compiling_load/1            % +Files
+            compiling_load/1,           % +Files
+            compiling_refused/0
           ]).
 :- set_module(base(system)).
 :- use_module(library(debug), []).      % from 9.2 on it defines a flag
@@ -14,7 +15,8 @@ by autoload/2, and not searched for: with a search library(settings) would load
 library(predicate_options), which takes as long as ten modules of this library.
 
 Modules of Typhon inherit from `system`, as those of SWI-Prolog's library do.
-So no predicate, operator, expansion or flag of module `user` changes them.
+The declaration of a module is expanded to that, and library(typhon) needs no
+directive in its files.  So no predicate, operator, expansion or flag of module `user` changes them.
 
 *Threading*: any thread; the flags are those of the thread.
 */
@@ -44,9 +46,25 @@ compiling_load(Files) :-
         forall(member(File, Files), use_module(File, [])),
         compiling_end(Flags)).
 
+%!  compiling_refused is semidet.
+%
+%   The library does not work in this Prolog: an error says why.
+
+compiling_refused :-
+    unsupported(Option),
+    !,
+    print_message(error, format('Typhon does not work with ~w', [Option])).
+
+unsupported('swipl --traditional') :-
+    [] == '[]'.
+unsupported('swipl --no-threads (library(typhon/kernel) does)') :-
+    current_prolog_flag(threads, false).
+
 flag(optimise, true).
 flag(optimise_debug, false).
-flag(autoload, explicit).
+flag(iso, false).                       % libraries of Prolog do not load so
+flag(autoload, explicit) :-             % else what is declared is loaded now
+    \+ current_prolog_flag(autoload, false).
 
                 /*******************************
                 *           MODULES            *

@@ -30,6 +30,7 @@ other processes order.
 
 :- multifile at_birth/2.        % Goal, Id: carry out Goal, the first goal of
                                 % Id, which does not run it
+:- '$clausable'(at_birth/2).
 
 %!  agent_begins(+Host, +Name, +Start, +From, -Answer) is det.
 %

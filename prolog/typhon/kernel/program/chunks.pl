@@ -99,6 +99,7 @@ has_clauses(Module, Name/Arity) :-
     Count > 0.
 
 tables(Module) :-
+    '$clausable'(Module:'$k'/6),
     dynamic([Module:'$k'/6, Module:'$go'/4, Module:'$run'/7]),
     module_transparent([Module:'$k'/6, Module:'$go'/4]),
     assertz(Module:('$go'(['$k'(P,V)|K], X, B, O) :-

@@ -340,7 +340,11 @@ no_system_sleep(Module) :-
 sleep(_) :-
     permission_error(call, control_predicate, sleep/1).
 
+%   The flag protect_static_code forbids clause/2, unless it is allowed before
+%   the predicate is declared.
+
 declare(Module, (Name/Arity)-Kind) :-
+    '$clausable'(Module:Name/Arity),
     module_transparent(Module:Name/Arity),
     dynamic(Module:Name/Arity),
     declare_mobile(Kind, Module, Name, Arity).

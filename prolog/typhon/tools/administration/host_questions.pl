@@ -67,6 +67,8 @@ property(remote(Host, Name, Endpoint), Property) :-
         member(Property, Found)         % no choice point for one property
     ).
 
+:- '$clausable'(local_property/2).
+
 local_property(address(Address), Name) :-
     host(Name, Address, _).
 local_property(state(running), _).

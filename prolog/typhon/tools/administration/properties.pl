@@ -107,6 +107,8 @@ typhon_questions:here(program, Agent, Asker) :-
     code_names(Hash, Names),
     question_answered(Asker, answer(Program-Names)).
 
+:- '$clausable'(property/2).
+
 property(host(Address), Agent) :-
     agent(Agent, Host, _, _, _),
     host(Host, Address, _).

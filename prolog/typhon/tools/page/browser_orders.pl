@@ -71,6 +71,8 @@ order_run(Message, _) :-
     ;   domain_error(page_order, What)
     ).
 
+:- '$clausable'(run_order/3).
+
 run_order(check, Message, checked) :-
     program_at(Message, Spec),
     agent_check(Spec).
