@@ -24,6 +24,7 @@ Local definitions take precedence: programs may define predicates of these
 names.
 */
 
+:- use_module(library(prolog_wrap), [wrap_predicate/4]).
 :- use_module(typhon/tools/user_errors, [user_errors/1]).
 :- reexport(tartarus/platform,
             [ start_tartarus/1, start_tartarus/2, start_tartarus/3,
@@ -31,7 +32,7 @@ names.
               set_token/1, print_tartarus_status/0,
               assert_file_to_tartarus/1, verbose/1, platform_start/2,
               nothing/0 ]).
-:- reexport(tartarus/agents).
+:- reexport(tartarus/agents, except([agent_create/2, agent_create/3])).
 :- reexport(tartarus/moves,
             [ clone_agent/3, hoptime/4, in_hop_time/2, in_hop_time/5,
               in_hop_time_stat/3, in_hop_times_details/1,
@@ -59,15 +60,42 @@ names.
               list_agent/0 as agent_list,
               list_agent/1 as agent_list,
               purge_agent/1 as agent_kill ]).
-:- reexport(tartarus/agents, [list_agent/0 as list_agents]).
+:- reexport(tartarus/agents,
+            [list_agent/0 as list_agents, list_agent/1 as list_agents]).
 :- reexport(tartarus/moves,
-            [clone_agent/3 as agent_clone, move_agent/2 as agent_move]).
+            [clone_agent/3 as agent_clone]).
 :- reexport(tartarus/messages,
             [post_agent/2 as agent_post, post_agent/3 as agent_post]).
 :- reexport(tartarus/lives,
             [ load_tartarus_state/1 as load_platform_state,
-              save_agent/2 as agent_save,
               save_tartarus_state/1 as save_platform_state ]).
+
+%   Typhon has four of these names. Its predicates are exported, and wrapped, so
+%   that a file may import both libraries: the arguments tell whose call it is.
+
+:- reexport(typhon,
+            [agent_create/2, agent_create/3, agent_move/2, agent_save/2]).
+
+share_names :-
+    forall(shared_name(Head, Own, Goal), share_name(Head, Own, Goal)).
+
+share_name(Head, Own, Goal) :-
+    predicate_property(typhon:Head, imported_from(Home)),
+    wrap_predicate(Home:Head, tartarus, Wrapped,
+                   ( Own -> Goal ; Wrapped )).
+
+shared_name(agent_create(Name, Handler), nonvar(Handler),
+            tartarus_agents:agent_create(Name, Handler)).
+shared_name(agent_create(Name, Location, Handler), \+ is_list(Handler),
+            tartarus_agents:agent_create(Name, Location, Handler)).
+shared_name(agent_move(Name, Location), subsumes_term((_,_), Location),
+            tartarus_moves:move_agent(Name, Location)).
+shared_name(agent_save(Name, File), user:agent_GUID(Name, _, _),
+            tartarus_lives:save_agent(Name, File)).
+
+%   A saved state does not keep wrappers.
+
+:- initialization(share_names, now).
 
 %   Programs consult the file of the platform under some path.  If there is no
 %   such file, this library is loaded in its place.

@@ -28,7 +28,8 @@ life(Dir) :-
         with_page([], Base, life(Network, Base)),
         network_stop(Network)),
     read_file_to_terms(Log, Events, []),
-    findall(What, member(event(_, _, _, What), Events), Logged),
+    findall(What, member(event(_, _, _, What), Events), Logged0),
+    msort(Logged0, Logged),             % threads write
     format("~q~n", [Logged]).
 
 life(Network, Base) :-

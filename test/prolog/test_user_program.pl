@@ -38,7 +38,7 @@ lives(Args, Lines, Trouble, Dir) :-
 usual(exit(0)).
 usual("").
 usual("life(\"a string\",42,[agents,hosts,time])\n\c
-       [created,[1.5,'An atom'],ended(done)]\n").
+       [created,ended(done),[1.5,'An atom']]\n").
 
 %   defines(-PI): of system, or of an autoloaded library, if users may define it.
 
@@ -160,6 +160,56 @@ test(unsupported_options_are_named, [ forall(member(Option, [ '--traditional',
                halt], [], exit(0), "", Said),
     sub_string(Said, _, _, _, Option),
     aggregate_all(count, sub_string(Said, _, _, _, "\n"), Lines).
+
+%   In either order, and by swipl -g "use_module(library(tartarus))" File.
+
+test(own_names_come_first, Trouble == []) :-
+    own_names(Facts),
+    both_orders(":- use_module(library(tartarus)).", Facts, Trouble0),
+    both_orders(":- use_module(library(typhon)).", Facts, Trouble1),
+    append(Trouble0, Trouble1, Trouble).
+
+own_names(["home(1).", "now(1).", "log(1).", "parent(1).", "move(1)."]).
+
+both_orders(Use, Facts, Trouble) :-
+    lives([Use|Facts], Trouble0),
+    append(Facts, [Use], Lines),
+    lives(Lines, Trouble1),
+    append(Trouble0, Trouble1, Trouble).
+
+test(typhon_and_tartarus_in_one_program,
+     [forall(member(Uses, [[typhon, tartarus], [tartarus, typhon]]))]) :-
+    with_tmp_dir(both(Uses)).
+
+both(Uses, Dir) :-
+    directory_file_path(Dir, 'both.pl', File),
+    directory_file_path(Dir, saved, Saved),
+    free_port(Port),
+    setup_call_cleanup(
+        open(File, write, Out),
+        both(Out, Uses, Port, Saved),
+        close(Out)),
+    project_file(prolog, Library),
+    atom_concat('library=', Library, Path),
+    run_swipl(['-q', '-p', Path, '-g', both, '-t', halt, File], [], exit(0),
+              Printed, ""),
+    once(sub_string(Printed, _, _, _, "[mover]done\ndone\n")).
+
+both(Out, Uses, Port, Saved) :-
+    forall(member(Use, Uses),
+           format(Out, ":- use_module(library(~w)).~n", [Use])),
+    format(Out, ":- dynamic walks/3.~n\c
+                 walks(guid, _, main) :- true.~n\c
+                 both :- start_tartarus(localhost, ~w, 1),~n\c
+                 agent_create(mover, (localhost,~w), walks),~n\c
+                 list_agents(L), findall(N, member((N,_,_), L), Ns),~n\c
+                 agent_save(mover, '~w'), write(Ns),~n\c
+                 host_start(alpha),~n\c
+                 agent_create(clauses([(:- agent(x, [])), main]), A, [host(alpha)]),~n\c
+                 agent_join(A, O1, 10), writeln(O1),~n\c
+                 agent_create(clauses([(:- agent(x, [])), main]), B, [host(alpha)]),~n\c
+                 agent_join(B, O2, 10), writeln(O2),~n\c
+                 close_tartarus, host_stop(alpha).~n", [Port, Port, Saved]).
 
 names(Count) :-
     from_environment('TYPHON_NAMES', 300, Count).
