@@ -83,7 +83,7 @@ check:                  ## a quick look for mistakes, offline
 	fi
 
 check-all:
-	@$(SWIPL) --on-error=status doc/layers.pl -- check
+	@$(SWIPL) -q --on-error=status doc/layers.pl -- check
 	@for file in $(ENTRY_POINTS); do \
 	    $(SWIPL) -q --on-error=status --on-warning=status \
 	        -g '$(CHECKS)' -t halt -l $$file || exit 1; \

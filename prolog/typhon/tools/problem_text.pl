@@ -101,7 +101,8 @@ typhon_programs:advice(declare(payload)) -->
     ['begin the file with :- payload(Name, [provides([Name/Arity, ...])]).'].
 typhon_programs:advice(directive) -->
     ['nothing runs at load time; allowed are agent/1,2, payload/1,2, \c
-      dynamic/1, discontiguous/1, include/1 and use_module(library(_))'].
+      dynamic/1, discontiguous/1, include/1, op/3, encoding(utf8) and \c
+      use_module(library(_))'].
 typhon_programs:advice(once) -->
     ['a file begins with one declaration: move what follows it to a file \c
       of its own'].

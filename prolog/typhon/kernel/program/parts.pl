@@ -9,7 +9,9 @@
           ]).
 :- use_module(library(apply), [maplist/3, partition/4]).
 :- use_module(library(lists), [member/2, memberchk/2, selectchk/3]).
-:- use_module(source, [clause_parts/3, declaration/4, indicator_in/2]).
+:- use_module(source,
+              [ clause_parts/3, declaration/4, indicator_in/2,
+                reader_directive/1 ]).
 :- use_module(libraries, [import_fault/2, library_import/2]).
 :- use_module(bodies, [control/1]).
 :- use_module('../base/names', [names_near/3]).
@@ -167,7 +169,12 @@ faulty_directive(Directive, Formal, Advice) :-
     ;   Formal = domain_error(Kind, Directive),
         Advice = declare(Kind)
     ).
-faulty_directive(Directive, domain_error(directive, Directive), directive).
+faulty_directive(Directive, Formal, directive) :-
+    (   catch(reader_directive(Directive), error(Formal0, _), true)
+    ->  nonvar(Formal0),
+        Formal = Formal0
+    ;   Formal = domain_error(directive, Directive)
+    ).
 
 %   faulty_indicator(+PIs, -Formal, -Advice) is nondet: a problem of PIs, the
 %   argument of dynamic/1.

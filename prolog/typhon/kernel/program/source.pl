@@ -6,7 +6,8 @@
             source_same/1,              % +Sources
             declaration/4,              % +Kind, +Term, -Name, -Options
             indicator_in/2,             % +PIs, ?PI
-            clause_parts/3              % +Clause, -Head, -Body
+            clause_parts/3,             % +Clause, -Head, -Body
+            reader_directive/1          % +Directive
           ]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(error), [must_be/2]).
@@ -22,8 +23,8 @@ Agent programs and payloads are read here, from a file or from a list of terms,
 into pairs Term-Location.  A location is `File:Line`, or clause(N) for the N-th
 term of a list.  Reading never runs anything in the file: directives are terms
 like the others, and only `:- include(F)` is followed.  Grammar rules are
-translated.  Operators that the file imports from libraries are known from
-there on.
+translated.  Operators that the file declares, or imports from libraries, are
+known from there on, in this file alone.  A first line `#!` is skipped.
 
 A term that cannot be read, or looks like a typing error, is a problem as in
 typhon_parts, and reading goes on after it.  The location of a syntax error is
@@ -84,9 +85,16 @@ file_item(File, _, source(file(File, Stamp, Now))) :-
     file_stamp(File, Stamp).
 file_item(File, reading(Files, Module), Item) :-
     setup_call_cleanup(
-        open(File, read, In, [encoding(utf8)]),
+        open_source(File, In),
         item_in(In, reading([File|Files], Module), Item),
         close(In)).
+
+open_source(File, In) :-
+    open(File, read, In, [encoding(utf8)]),
+    (   peek_string(In, 2, "#!")
+    ->  skip(In, 0'\n)
+    ;   true
+    ).
 
 file_stamp(File, stamp(Size, Time)) :-
     size_file(File, Size),
@@ -204,7 +212,39 @@ term_operators((:- Directive), Module) :-
     library_import(Directive, Import),
     !,
     import_operators(Import, Module).
+term_operators((:- Directive), Module) :-
+    for_reader(Directive),
+    !,
+    catch(declare(Directive, Module), error(_, _), true).
 term_operators(_, _).
+
+%   Names that are qualified would change another module.
+
+for_reader(Directive) :-
+    ground(Directive),
+    directive_for_reader(Directive).
+
+directive_for_reader(encoding(utf8)).
+directive_for_reader(op(_, _, Names)) :-
+    (   atom(Names)
+    ->  true
+    ;   is_list(Names),
+        maplist(atom, Names)
+    ).
+
+declare(encoding(_), _).
+declare(op(Priority, Type, Names), Module) :-
+    op(Priority, Type, Module:Names).
+
+%!  reader_directive(+Directive) is semidet.
+%
+%   Directive tells how the rest of a file is read: op/3, encoding(utf8).
+%
+%   @error those of op/3
+
+reader_directive(Directive) :-
+    for_reader(Directive),
+    with_scratch_module(Module, declare(Directive, Module)).
 
                 /*******************************
                 *           ONE CLAUSE         *
@@ -224,7 +264,7 @@ source_clause(File:Line, Clause) :-
 
 clause_in(File, Line, Module, Clause) :-
     setup_call_cleanup(
-        open(File, read, In, [encoding(utf8)]),
+        open_source(File, In),
         clause_at(In, Line, Module, Clause),
         close(In)).
 

@@ -194,6 +194,24 @@ test(payload_in_an_agent, F-L == permission_error(declare, payload, b)-2) :-
 test(syntax, L == 4) :-
     with_file([':- agent(a).', 'main :-', '    foo,', '    bar baz.'],
               test_program:syntax_line(L)).
+test(operators_of_the_program) :-
+    with_file(['#!/usr/bin/env swipl', ':- encoding(utf8).', ':- agent(a).',
+               ':- op(700, xfx, ===>).', ':- op(200, xfy, [&, and]).',
+               'main :- rule(a & b ===> c and d).', 'rule(_ ===> _).'],
+              test_program:load),
+    assertion(\+ current_op(_, _, ===>)).
+test(operators_of_the_program_have_lines, L == 4) :-
+    with_file(['#! /bin/x', ':- agent(a).', ':- op(700, xfx, ===>).',
+               'main :- a ===> b c.'], test_program:syntax_line(L)).
+test(operators_of_another_module,
+     F-L == domain_error(directive, op(700, xfx, user:(===>)))-2) :-
+    problem([':- agent(a).', ':- op(700, xfx, user:(===>)).', 'main.'], F, L,
+            _),
+    assertion(\+ current_op(_, _, ===>)).
+test(invalid_operator, F-L == domain_error(operator_specifier, x)-2) :-
+    problem([':- agent(a).', ':- op(700, x, ===>).', 'main.'], F, L, _).
+test(other_encoding, F-L == domain_error(directive, encoding(iso_latin_1))-2) :-
+    problem([':- agent(a).', ':- encoding(iso_latin_1).', 'main.'], F, L, _).
 test(syntax_of_the_end, L == 2) :-
     with_file([':- agent(a).', 'main :- foo'], test_program:syntax_line(L)).
 test(directive, F-L == domain_error(directive, initialization(main))-2) :-
