@@ -19,9 +19,9 @@ a folder, with an interface of the same name beside it:
 */
 
 :- use_module(typhon/kernel/base/compiling,
-              [compiling_begin/1, compiling_end/1, compiling_refused/0]).
+              [compiling_begin/1, compiling_end/1]).
 
-:- if(\+ compiling_refused).
+:- if(( current_prolog_flag(threads, true), [] \== '[]' )).
 
 :- compiling_begin(Flags),
    nb_setval(typhon_flags, Flags).
@@ -74,5 +74,12 @@ a folder, with an interface of the same name beside it:
 :- nb_getval(typhon_flags, Flags),
    compiling_end(Flags),
    nb_delete(typhon_flags).
+
+:- else.
+
+:- print_message(error,
+                 format('swipl --traditional and --no-threads do not run \c
+                         library(typhon); without threads use \c
+                         library(typhon/kernel)', [])).
 
 :- endif.

@@ -1,8 +1,7 @@
 :- module(typhon_compiling,
           [ compiling_begin/1,          % -Flags
             compiling_end/1,            % +Flags
-            compiling_load/1,           % +Files
-            compiling_refused/0
+            compiling_load/1            % +Files
           ]).
 :- set_module(base(system)).
 :- use_module(library(debug), []).      % from 9.2 on it defines a flag
@@ -45,20 +44,6 @@ compiling_load(Files) :-
         compiling_begin(Flags),
         forall(member(File, Files), use_module(File, [])),
         compiling_end(Flags)).
-
-%!  compiling_refused is semidet.
-%
-%   The library does not work in this Prolog: an error says why.
-
-compiling_refused :-
-    unsupported(Option),
-    !,
-    print_message(error, format('Typhon does not work with ~w', [Option])).
-
-unsupported('swipl --traditional') :-
-    [] == '[]'.
-unsupported('swipl --no-threads (library(typhon/kernel) does)') :-
-    current_prolog_flag(threads, false).
 
 flag(optimise, true).
 flag(optimise_debug, false).
