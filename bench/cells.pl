@@ -4,7 +4,9 @@
 :- use_module(traveller).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/options/cell), [cells_list/1]).
-:- use_module(library(lists), [member/2, sum_list/2]).
+:- use_module(library(lists), [last/2, member/2, nth1/3, sum_list/2]).
+:- use_module(library(process),
+              [process_create/3, process_kill/2, process_wait/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 
 /*  The cost of cells: memory and start of a cell; a turn in a cell, both
@@ -12,7 +14,8 @@ ways, and a message from it; hops of an agent between another process and a
 host with cells, compared with a guarded host without cells, and with an
 unguarded host.  And the speed of agents that hop between a host without cells
 in the same process and another process, while hogs arrive at the host with
-cells, one after the other.
+cells, one after the other.  And what a busy agent in a cell gets beside busy
+processes, in sessions of their own.
 
 A figure is the median of the ratios of pairs that are measured one after the
 other, every second pair in the other order, because the load of the machine
@@ -23,8 +26,79 @@ changes from one minute to the next. */
 main([Placement]) :-
     host_start(here),
     with_peer([env], costs),
+    shares,
     with_peer([env], beside_all_hogs(Placement)),
     host_stop(here).
+
+                /*******************************
+                *             SHARES           *
+                *******************************/
+
+%   The share that a busy agent in a cell has of what a busy process has, and
+%   of one processor while these processes run.
+
+shares :-
+    with_inn(owner, 600,
+             ( agent_create(clauses([ (:- agent(busy, [])),
+                                      (main :- repeat, fail) ]),
+                            A, [host(inn)]),
+               once(( repeat, busy_cell(Pid) )),
+               forall(member(Count, [2,4,8]), share(Count, Pid)),
+               agent_dispose(A, [force(0)]) )).
+
+share(Count, Pid) :-
+    setup_call_cleanup(
+        findall(Hog, ( between(1, Count, _), busy_process(Hog) ), Hogs),
+        ( used(Pid, Own0),
+          used_by(Hogs, All0),
+          get_time(Start),
+          sleep(10),
+          used(Pid, Own),
+          used_by(Hogs, All),
+          get_time(End) ),
+        forall(member(Hog, Hogs),
+               ( process_kill(Hog, kill), process_wait(Hog, _) ))),
+    Of is (Own-Own0)/(End-Start),
+    Ratio is (Own-Own0)*Count/(All-All0),
+    format(atom(Name), 'a busy agent in a cell beside ~d busy processes',
+           [Count]),
+    format(atom(Note), '~3g of what one of them gets', [Ratio]),
+    figure(Name, Of, processors, Note).
+
+%   The process below bwrap that uses the processor.
+
+busy_cell(Child) :-
+    cells_list(Cells),
+    member(cell(_, Pid, Key), Cells),
+    Key \== spare,
+    format(atom(Children), '/proc/~w/task/~w/children', [Pid, Pid]),
+    read_file_to_string(Children, Text, []),
+    split_string(Text, " ", " ", [First|_]),
+    number_string(Child, First),
+    used(Child, Seconds),
+    Seconds > 0.5.
+
+busy_process(Pid) :-
+    process_create(path(setsid), [sh, '-c', 'while :; do :; done'],
+                   [process(Pid)]).
+
+used_by(Pids, Seconds) :-
+    findall(S, ( member(Pid, Pids), used(Pid, S) ), Each),
+    sum_list(Each, Seconds).
+
+%   In hundredths, on all usual systems.
+
+used(Pid, Seconds) :-
+    format(atom(File), '/proc/~d/stat', [Pid]),
+    read_file_to_string(File, Text, []),
+    split_string(Text, ")", "", Parts),
+    last(Parts, Rest),
+    split_string(Rest, " ", " ", Words),
+    nth1(12, Words, User),
+    nth1(13, Words, System),
+    number_string(U, User),
+    number_string(S, System),
+    Seconds is (U+S)/100.
 
                 /*******************************
                 *             COSTS            *

@@ -7,8 +7,7 @@
 :- use_module(library(filesex), [chmod/2, directory_file_path/3]).
 :- use_module(library(lists),
               [last/2, member/2, nth1/3, numlist/3, subtract/3, sum_list/2]).
-:- use_module(library(process),
-              [process_create/3, process_kill/2, process_wait/2]).
+:- use_module(library(process), [process_kill/2]).
 :- use_module(library(readutil), [read_file_to_string/3, read_file_to_terms/3]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/bridges/common), [service_begin/5]).
@@ -145,17 +144,12 @@ test(state_is_changed_from_outside, Facts == [n(1),n(2)]) :-
 test(services_of_the_place_are_available, Result == [2,4]-no) :-
     with_tmp_dir(served(Result)).
 test(cells_have_low_priority,
-     [condition(exists_file('/proc/self/autogroup')), true(Nice == "10")]) :-
+     [condition(exists_file('/proc/self/autogroup')),
+      true(Session-Process == "10"-10)]) :-
     cell(( create([(main :- receive(_))], A, [host(c)]),
            wait_state(A, waiting),
-           cell_session_nice(Nice) )).
-test(busy_agent_gets_a_share_beside_busy_processes, Share == true) :-
-    cell(( create([(main :- repeat, fail)], A, [host(c)]),
-           wait_state(A, running),
-           busy_cell(Pid),
-           shared_with(4, Pid, Share0),
-           ( Share0 >= 0.04 -> Share = true ; Share = Share0 ),
-           agent_dispose(A, [force(0)]) )).
+           cell_session_nice(Session),
+           cell_nice(Process) )).
 test(order_from_outside, Outcome == disposed) :-
     cell(( create([(main :- receive(_))], A, [host(c)]),
            wait_state(A, waiting),
@@ -481,6 +475,16 @@ cell_session_nice(Nice) :-
     read_file_to_string(Group, Line, []),
     split_string(Line, " ", " \n", [_,_,Nice]).
 
+cell_nice(Nice) :-
+    busy_cell(Child),
+    format(atom(File), '/proc/~d/stat', [Child]),
+    read_file_to_string(File, Text, []),
+    split_string(Text, ")", "", Parts),
+    last(Parts, Rest),
+    split_string(Rest, " ", " ", Words),
+    nth1(17, Words, Word),
+    number_string(Nice, Word).
+
 busy_cell(Child) :-
     cells_list(Cells),
     once(( member(cell(_, Pid, Key), Cells), Key \== spare )),
@@ -488,42 +492,6 @@ busy_cell(Child) :-
     read_file_to_string(Children, Text, []),
     split_string(Text, " ", " ", [First|_]),
     number_string(Child, First).
-
-%   shared_with(+Count, +Pid, -Share): while Count busy processes in sessions of
-%   their own use ten seconds of a processor, the process Pid uses Share of what
-%   one of them uses.  So the load of the machine does not matter.
-
-shared_with(Count, Pid, Share) :-
-    setup_call_cleanup(
-        findall(Hog, ( between(1, Count, _), busy_process(Hog) ), Hogs),
-        ( used(Pid, Own0),
-          wait_until(( used_by(Hogs, All), All >= 10 ), 120),
-          used(Pid, Own),
-          Share is (Own-Own0)*Count/All ),
-        forall(member(Hog, Hogs),
-               ( process_kill(Hog, kill), process_wait(Hog, _) ))).
-
-busy_process(Pid) :-
-    process_create(path(setsid), [sh, '-c', 'while :; do :; done'],
-                   [process(Pid)]).
-
-used_by(Pids, Seconds) :-
-    findall(S, ( member(Pid, Pids), used(Pid, S) ), Each),
-    sum_list(Each, Seconds).
-
-%   In hundredths, on all usual systems.
-
-used(Pid, Seconds) :-
-    format(atom(File), '/proc/~d/stat', [Pid]),
-    read_file_to_string(File, Text, []),
-    split_string(Text, ")", "", Parts),
-    last(Parts, Rest),
-    split_string(Rest, " ", " ", Words),
-    nth1(12, Words, User),
-    nth1(13, Words, System),
-    number_string(U, User),
-    number_string(S, System),
-    Seconds is (U+S)/100.
 
 %   The result is `yes` if the agent can do what the rules refuse.
 
