@@ -2,13 +2,14 @@
           [ hostile_kinds/2,            % +Options, -Rows
             hostile_class/1             % ?Class
           ]).
+:- use_module('../lib/arrivals').
 :- use_module('../lib/cell_inmate').
 :- use_module('../lib/common').
 :- use_module('../lib/fixtures').
 :- use_module('../lib/peers').
 :- use_module(library(filesex),
               [directory_file_path/3, relative_file_name/3]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(occurs), [sub_term/2]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(random), [random_between/3, random_member/2]).
@@ -425,54 +426,34 @@ without(_, _, Text, Text).
 endpoint(Address, Endpoint) :-
     typhon_host_names:address_parts(Address, _, Endpoint).
 
-state_there(Agent, Links-Agents-Clauses) :-
+state_there(Agent, [Links,Agents,Clauses,Facts]) :-
+    peer_do(victim, findall(F, remote(victim, sense(F)), Facts)),
     peer_do(victim, findall(L, host_property(victim, neighbours(L)), Links)),
     peer_do(victim, agents_here(Agents)),
     peer_do(victim, agent_property(Agent, facts(Clauses))).
 
-frame(call(Kind, Term)) :-
-    there(Address, Agent),
-    call_of(Kind, Address, Agent, Term).
-frame(post(Kind, Term)) :-
-    there(Address, Agent),
-    post_of(Kind, Address, Agent, Term).
+%   Each declared term about the agent and the host, and each with one argument
+%   that is not of its type.
 
-call_of(survey, _, _, look(100)).
-call_of(close_up, _, _, host(victim)).
-call_of(join, _, Agent, join(Agent, 0)).
-call_of(results, _, Agent, left(Agent, result)).
-call_of(results, _, Agent, left(Agent, log)).
-call_of(directory, Address, _, look([victim], _)) :- atom(Address).
-call_of(directory, Address, _, look([Address], offers)).
-call_of(everywhere, _, _, Q) :- member(Q, [agents, hosts, agents(_), hosts(_)]).
-call_of(hosting, Address, Agent, Q) :-
-    member(Q, [ properties(Address), property(Address, _), agents(Address),
-                host_property(Address, agents(_)), agents, here(Agent) ]).
-call_of(whereabouts, _, Agent, reached(Agent, 0)).
-call_of(monitor, _, Agent, T) :-
-    member(T, [ alive, have([Agent]), watch(Agent), relations(Agent),
-                follows(Agent, x), end([Agent], []),
-                monitor_add([Agent], x), monitor_remove([Agent], x),
-                by(Agent, x) ]).
-call_of(trace, _, Agent, traced(victim, Agent, forged)).
-call_of(agent, Address, Agent, T) :-
-    member(T, [ question(Agent, facts), question(Agent, properties),
-                question(Agent, property(facts(_))),
-                create(Address, x, start, clauses([])) ]).
-call_of(remote, _, _, remote(victim, true)).
-call_of(watch, _, _, T) :- member(T, [watch(x, [all]), unwatch(x)]).
-call_of(watched, _, _, T) :- member(T, [alive(x), events(x, [])]).
-call_of(node, _, _, T) :- member(T, [alive, stop, hosts, start(x)]).
-call_of(log, _, _, arrived).
+frame(Frame) :-
+    there(_, Agent),
+    arrival_sample(victim, Agent, Form, Kind, Term0, _),
+    damaged(Term0, Term),
+    ( Form == post -> Frame = post(Kind, Term) ; Frame = call(Kind, Term) ),
+    \+ never_answered(Frame).
 
-post_of(log, Address, Agent, event(x, Address, Agent, forged)).
-post_of(pheromone, Address, _, pheromone(Address, [p(x, 1, a)])).
-post_of(pheromone, _, _, pheromone(victim, [x-1])).
-post_of(whereabouts, _, Agent, [Agent-at(elsewhere, 9)]).
-post_of(whereabouts, _, Agent, [Agent]).
-post_of(message, _, Agent, message(Agent, x-forged, 9)).
-post_of(message, _, Agent, abroad(Agent, x, forged)).
-post_of(message, _, Agent, lost(x, Agent, forged)).
+damaged(Term, Term).
+damaged(Term0, Term) :-
+    compound(Term0),
+    compound_name_arguments(Term0, Name, Args0),
+    append(Before, [_|After], Args0),
+    member(Wrong, [_, x, [], f(x), "text", -1]),
+    append(Before, [Wrong|After], Args),
+    compound_name_arguments(Term, Name, Args).
+
+%   Requests which wait for what may never happen.
+
+never_answered(call(watch, _)).
 
                 /*******************************
                 *            TEXTS             *

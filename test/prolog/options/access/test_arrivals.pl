@@ -10,9 +10,9 @@ and by that of a stranger.
 */
 
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/arrivals').
 :- use_module('../../../lib/authority').
 :- use_module('../../../lib/peers').
-:- use_module(library(apply), [maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [append/3, member/2, nth1/3]).
 :- use_module(library(plunit)).
@@ -21,7 +21,6 @@ and by that of a stranger.
 :- use_module(library(typhon/kernel/host), [address_parts/3]).
 :- use_module(library(typhon/kernel/wire),
               [endpoint_call/5, endpoint_post/3, endpoint_request/4]).
-:- use_module(library(typhon/kernel/wire/kinds), [arrives/6]).
 
 :- begin_tests(arrivals).
 
@@ -131,7 +130,7 @@ may(Right, Given) :-
 refusals(File, Refused, Needed) :-
     waiting_agent(Agent),
     findall(case(Form, Kind, Term, Right),
-            sample_case(Agent, Form, Kind, Term, Right), Cases),
+            arrival_sample(p, Agent, Form, Kind, Term, Right), Cases),
     audited(File, Before),
     forall(member(case(Form, Kind, Term, _), Cases), sent(Form, Kind, Term)),
     audited(File, After),
@@ -141,41 +140,6 @@ refusals(File, Refused, Needed) :-
             ( member(case(_, _, _, Right), Cases),
               \+ memberchk(Right, [none, asked, gate]) ),
             Needed).
-
-sample_case(Agent, Form, Kind, Term, Right) :-
-    arrives(Form0, Kind, Pattern, Right, Scope, _),
-    scoped(Scope, Agent),
-    sample(Pattern, Term0),
-    framed(Form0, Form, Term0, Term).
-
-scoped(host(p), _) :-
-    !.
-scoped(agent(Agent), Agent) :-
-    !.
-scoped(_, _).
-
-framed(post, post, Term, Term).
-framed(request, request, Term, Term).
-framed(news, post, Term, [Term]).
-
-sample(Var:Type, Term) :-
-    !,
-    ( nonvar(Var) -> Term = Var ; sample(Type, Term) ).
-sample(name, x).
-sample(term, true).
-sample(count, 0).
-sample(positive, 1).
-sample(number, 1).
-sample(list(_), []) :-
-    !.
-sample(Pattern, Term) :-
-    compound(Pattern),
-    !,
-    compound_name_arguments(Pattern, Name, Types),
-    maplist(sample, Types, Args),
-    compound_name_arguments(Term, Name, Args).
-sample(Constant, Constant) :-
-    \+ memberchk(Constant, [name, term, count, positive, number]).
 
 %   A later request is answered after all that was sent before.
 
@@ -214,7 +178,7 @@ waiting_agent(Agent) :-
 malformed(_, File) :-
     peer_do(p, host_change(p, peer([cookie-all]))),
     findall(case(Form, Kind, Term),
-            ( sample_case(x, Form, Kind, Term0, _), damaged(Term0, Term),
+            ( arrival_sample(p, x, Form, Kind, Term0, _), damaged(Term0, Term),
               \+ declared(Form, Kind, Term) ),
             Cases0),
     append(Cases0,
