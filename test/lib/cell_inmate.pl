@@ -152,7 +152,8 @@ attempt(Goal, Outcome) :-
 %   is_seen(+Outcome, +Agent, -What) is semidet.
 
 is_seen(ended(lost(cell(Reason))), A, cell(A, Reason)).
-is_seen(ended(raised(error(resource_error(What), _))), A, over(A, What)).
+is_seen(ended(raised(error(resource_error(What), _))), A, over(A, What)) :-
+    memberchk(What, [cells, inferences, messages, seconds, state]).
 is_seen(ended(raised(error(permission_error(call, sandboxed, _), _))), A,
         refused(A, policy(_))).
 is_seen(yes(test_ask(_, raised(error(Formal, _)))), A, refused(A, policy(_))) :-

@@ -1,6 +1,7 @@
 :- module(typhon_bounds,
           [ memory_short/0,
             memory_short/1,             % +Count
+            space_used_up/1,            % +Module
             bounded/2                   % :Fact, +Setting
           ]).
 :- use_module(library(lists), [member/2, sum_list/2]).
@@ -16,6 +17,17 @@ workers do not grow while less than a quarter is left.
 */
 
 :- dynamic short/0.             % memory was short at the last check
+
+%!  space_used_up(+Module) is semidet.
+%
+%   The program space of Module is bounded, and less than a tenth is left: an
+%   error that says so is true.
+
+space_used_up(Module) :-
+    module_property(Module, program_space(Most)),
+    Most > 0,
+    module_property(Module, program_size(Size)),
+    10*Size > 9*Most.
 
 %!  memory_short is semidet.
 %!  memory_short(+Count) is semidet.

@@ -57,8 +57,9 @@ an agent belongs to one worker.
 %
 %   Run the agent to its next stop, from Goals0.  Unit is unit(Run), where Run
 %   is that of unit/2, or `none`.  Outcome is that of machine_run/3, `held` if
-%   the agent was suspended in the middle of its goals, or over(Resource) if it
-%   passed a limit.
+%   the agent was suspended in the middle of its goals, over(Resource) if it
+%   passed a limit, or ends(Resource) if it ends by the error of a resource,
+%   which it may have raised itself.
 
 turn_run(machine, Unit, Turn, goals(Goals), Outcome, Goals) :-
     !,
@@ -300,6 +301,9 @@ conclude(lost(Why), _, turn(Id, _, _), stop) :-
     ignore(agent_end(Id, lost(Why))).
 conclude(over(What), _, turn(Id, _, _), stop) :-
     ends_over(Id, raised(error(resource_error(What), _))).
+conclude(ends(What), _, turn(Id, _, _), stop) :-
+    print_message(warning, typhon(exhausted(Id, What))),
+    ignore(agent_end(Id, raised(error(resource_error(What), _)))).
 conclude(raised(Error), Goals0, turn(Id, _, _), stop) :-
     agent_fails(Id, raised(Error), Goals0).
 conclude(effect(Control, Hole, Goals), _, turn(Id, Host, _), Next) :-

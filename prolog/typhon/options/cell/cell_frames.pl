@@ -51,6 +51,9 @@ and the cell sends
                                 state for the turn N
     over(N, What)               in the turn N the agent has exceeded the limit
                                 What; the cell ends
+    ends(N, stack)              in the turn N the agent ends by the error of a
+                                full stack, which it may have raised; the cell
+                                ends
     outcome(N, Outcome, Note, Changes)
                                 the turn N is over, see machine_run/3
 

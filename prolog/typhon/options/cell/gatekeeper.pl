@@ -153,7 +153,9 @@ finish_turn(outcome(Outcome, Note), Cell, agent(Id, _, _, _, _), Outcome) :-
     cell_give(Cell),
     retractall(repeated(Id)),
     fault_note(Note).
-finish_turn(over(What), Cell, _, raised(error(resource_error(What), _))) :-
+finish_turn(over(What), Cell, _, over(What)) :-
+    cell_end(Cell, _).
+finish_turn(ends(What), Cell, _, ends(What)) :-
     cell_end(Cell, _).
 finish_turn(broken(Why), Cell, Agent, Outcome) :-
     cell_end(Cell, Status),
@@ -174,7 +176,7 @@ ended(agent(Id, Host, _, _, _), Reason, Outcome) :-
            typhon(cell_ended(Id, Host, Reason, Outcome))).
 
 %   run_turn(+Cell, +Policy, +OwnerAndAgent, +Goals, -Result): Result is
-%   outcome(Outcome, Note), over(What) or broken(Why).
+%   outcome(Outcome, Note), over(What), ends(What) or broken(Why).
 
 run_turn(Cell, Policy, Owner-Agent, Goals, Result) :-
     flag(typhon_cell_turn, N, N+1),
@@ -334,6 +336,9 @@ handle_frame(lacks(N), Cell, Agent, Goals, Acts, more(Acts)) :-
 handle_frame(over(_, What), _, Agent, _, Acts, over(What)) :-
     nonvar(What),
     memberchk(What, [cells,stack,state]),
+    carry_out(Acts, Agent, _).
+handle_frame(ends(_, What), _, Agent, _, Acts, ends(stack)) :-
+    What == stack,
     carry_out(Acts, Agent, _).
 handle_frame(outcome(_, Outcome, Note, Changes), Cell, Agent, _, Acts,
              Result) :-

@@ -3,6 +3,7 @@
 :- use_module(library(prolog_wrap), [wrap_predicate/4]).
 :- use_module(library(settings), [set_setting/2]).
 :- use_module(library(terms), [term_size/2]).
+:- use_module('../../kernel/base/bounds', [space_used_up/1]).
 :- use_module('../../kernel/base/on_demand', [on_demand_load/2]).
 :- use_module('../../kernel/base/trees', [is_tree/2]).
 :- use_module('../../kernel/program',
@@ -225,7 +226,7 @@ small_and_mobile(Term) :-
     (   limit(cells, Most),
         More is Most+1000,
         \+ is_tree(Term, More)
-    ->  over(cells)
+    ->  end_by(over(cells))
     ;   mobile_term(Term)
     ).
 
@@ -242,19 +243,28 @@ check_catches :-
 within_limits(Ball) :-
     (   nonvar(Ball),
         Ball = error(resource_error(What0), _),
-        limit_named(What0, What)
-    ->  over(What)
+        limit_passed(What0, How)
+    ->  end_by(How)
     ;   true
     ).
 
-limit_named(What, stack) :- What == stack.
-limit_named(What, state) :- What == program_space.
+%   limit_passed(+What, -How): the agent may have raised the error itself, which
+%   only a state that is nearly full disproves.
 
-over(What) :-
+limit_passed(What, ends(stack)) :-
+    What == stack.
+limit_passed(What, over(state)) :-
+    What == program_space,
+    b_getval(cell_turn, turn(_, _, Module)),
+    space_used_up(Module).
+
+end_by(How) :-
+    How =.. [Name, What],
+    Frame =.. [Name, N, What],
     b_getval(cell_turn, turn(N, _, _)),
     send_all(N, 0),
     nb_getval(cell_connection, connection(_, Out)),
-    cell_frame_write(Out, over(N, What)),
+    cell_frame_write(Out, Frame),
     halt(0).
 
                 /*******************************

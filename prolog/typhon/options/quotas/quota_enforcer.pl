@@ -5,6 +5,7 @@
 :- use_module(library(lists), [last/2, member/2]).
 :- use_module(library(pairs), [group_pairs_by_key/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../../kernel/base/bounds', [space_used_up/1]).
 :- use_module('../../kernel/base/server', [server_start/4, server_stop/1]).
 :- use_module('../../kernel/base/trees', [is_tree/2]).
 :- use_module('../../kernel/program',
@@ -60,7 +61,7 @@ run(turn(Id, Host, Context), Goals, Outcome) :-
     usage_begin,
     far_limit(Host),
     within_inferences(Host, Context, Goals, Outcome0),
-    over(Outcome0, Outcome1),
+    over(Outcome0, Module, Outcome1),
     storable(Outcome1, Host, Outcome).
 
 %   The enforcer interrupts an agent that exceeds the quota of stack long before
@@ -81,31 +82,43 @@ far_limit(Host) :-
 within_inferences(Host, Context, Goals, Outcome) :-
     quota(Host, inferences, Most),
     !,
-    call_with_inference_limit(machine_run(Context, Goals, Outcome0), Most,
-                              Within),
-    (   Within == inference_limit_exceeded
+    statistics(inferences, Before),
+    call_with_inference_limit(machine_run(Context, Goals, Outcome0), Most, _),
+    statistics(inferences, After),
+    (   After-Before >= Most
     ->  Outcome = over(inferences)
     ;   Outcome = Outcome0
     ).
 within_inferences(_, Context, Goals, Outcome) :-
     machine_run(Context, Goals, Outcome).
 
-over(_, over(What)) :-
+%   over(+Outcome0, +Module, -Outcome): Outcome is over(What) if the agent has
+%   passed a quota.  An error alone does not show that: the agent may have raised
+%   it.
+
+over(_, _, over(What)) :-
     quota_passed_now(What),
     !.
-over(raised(inference_limit_exceeded), over(inferences)) :-
+over(raised(error(Formal, _)), Module, Outcome) :-
+    nonvar(Formal),
+    Formal = resource_error(What),
+    exhausted(What, Module, Outcome),
     !.
-over(raised(error(resource_error(What0), _)), Outcome) :-
-    !,
-    quota_named(What0, What),
-    Outcome = over(What).
-over(raised(Ball), over(cells)) :-
+over(raised(Ball), _, over(cells)) :-
     \+ is_tree(Ball, 10 000),          % printing it would never end
     !.
-over(Outcome, Outcome).
+over(Outcome, _, Outcome).
 
-quota_named(program_space, state) :- !.
-quota_named(What, What).
+%   exhausted(+What, +Module, -Outcome): SWI-Prolog raises these errors at its
+%   own limits.
+
+exhausted(What, Module, over(state)) :-
+    What == program_space,
+    space_used_up(Module),
+    !.
+exhausted(What, _, ends(What)) :-
+    ( What == stack ; What == program_space ),
+    !.
 
 %   storable(+Outcome0, +Host, -Outcome): the remaining goals of the agent are
 %   stored as a tree, while other threads wait for its mutex.  So their size is

@@ -43,8 +43,11 @@ test(new_functors_are_charged_to_the_owner_until_its_turns_end,
                   with_inmates(capturing(functors_charged([First,Next], Before,
                                                           After, Lines), _))).
 test(quota_exceeded_in_a_cell_is_audited,
-     Outcome = ended(raised(error(resource_error(stack), _)))) :-
-    with_inmates(attempt(test_send(over(stack)), Outcome)).
+     Outcome = ended(raised(error(resource_error(state), _)))) :-
+    with_inmates(attempt(test_send(over(state)), Outcome)).
+test(error_raised_in_a_cell_is_no_exceeded_quota, Over == []) :-
+    with_inmates(( attempt(throw(error(resource_error(stack), _)), _),
+                   findall(What, audited(over(_, What)), Over) )).
 test(resent_outcome_makes_no_second_clone, Agents == 2) :-
     with_inmates(sent_again(Agents)).
 test(outdated_image_is_refused,
