@@ -15,6 +15,7 @@ stopped waits for a message, which the handlers of SIGINT and SIGTERM send.
 */
 
 :- use_module('../prolog/typhon').
+:- use_module('../prolog/typhon/kernel/base/text', [format_shown/2]).
 :- use_module('../prolog/typhon/tools/tables',
               [print_agents/2, print_hosts/1, print_tree/1]).
 :- use_module('../prolog/typhon/kernel/host/runtime',
@@ -348,8 +349,9 @@ home_of(Agent, Home) :-
                 *******************************/
 
 print_line(Term) :-
-    format('~w~n', [Term]),
+    format_shown('~w~n', [Term]),
     flush_output.
 
 print_event(event(Time, Host, Agent, What)) :-
-    format('~t~3f~12|  ~w~t~26+ ~w~t~32+ ~p~n', [Time, Host, Agent, What]).
+    format_shown('~t~3f~12|  ~w~t~26+ ~w~t~32+ ~p~n',
+                 [Time, Host, Agent, What]).

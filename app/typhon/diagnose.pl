@@ -21,6 +21,7 @@ has been printed if the network does not answer.
               ]).
 :- use_module('../../prolog/typhon', [host_property/2]).
 :- use_module('../../prolog/typhon/kernel/base/error_text', [error_text/2]).
+:- use_module('../../prolog/typhon/kernel/base/text', [format_shown/2]).
 :- use_module('../../prolog/typhon/kernel/wire', [cookie/1, endpoint_peer/2]).
 
 connect_deadline(5).                    % seconds
@@ -48,11 +49,11 @@ diagnose_steps([Step-Advice|Steps], Check) :-
     (   Found == not_asked
     ->  diagnose_steps(Steps, Check)
     ;   nonvar(Found)
-    ->  format('  ok    ~w~t~24|~w~n', [Step, Found]),
+    ->  format_shown('  ok    ~w~t~24|~w~n', [Step, Found]),
         diagnose_steps(Steps, Check)
     ;   format('  FAIL  ~w~t~24|', [Step]),
         error_text(error(Formal, Context), Text),
-        format('~w~n', [Text]),
+        format_shown('~w~n', [Text]),
         format('~t~24|~w~n', [Advice]),
         fail
     ).

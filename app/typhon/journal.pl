@@ -3,6 +3,7 @@
           ]).
 :- use_module('../../prolog/typhon/kernel/agent/identity', [agent_name/3]).
 :- use_module('../../prolog/typhon/kernel/agent/life', [life_hops/2]).
+:- use_module('../../prolog/typhon/kernel/base/text', [format_shown/2]).
 :- use_module('../../prolog/typhon/options/journal/database', [journal_part/3]).
 :- use_module('../../prolog/typhon/options/journal/store',
               [ journal_found/1, journal_item/5, journal_open/2,
@@ -112,9 +113,10 @@ kind(wait, 'messages that wait').
 overview :-
     forall(journal_item(endpoint, any, _, _,
                         endpoint(_, Starts, Interface, Port)),
-           format('process at ~w:~w, started ~D times~n',
-                  [Interface, Port, Starts])),
-    forall(journal_item(host, any, Name, _, _), format('host ~w~n', [Name])),
+           format_shown('process at ~w:~w, started ~D times~n',
+                        [Interface, Port, Starts])),
+    forall(journal_item(host, any, Name, _, _),
+           format_shown('host ~w~n', [Name])),
     forall(( kind(Kind, Words), Kind \== host,
              aggregate_all(count, journal_item(Kind, any, _, _, _), Count),
              Count > 0 ),
@@ -124,7 +126,8 @@ agent_line(Id, agent(Host, _, Life, _, Status, _)) :-
     !,
     life_hops(Life, Hops),
     functor(Status, Name, _),
-    format('~w~t~48| on ~w, ~w, after ~D hops~n', [Id, Host, Name, Hops]).
+    format_shown('~w~t~48| on ~w, ~w, after ~D hops~n',
+                 [Id, Host, Name, Hops]).
 agent_line(_, _).
 
 extracted(Agent, File) :-

@@ -19,6 +19,8 @@ order/3 has one clause for each command, and fails if the answer is negative.
               [ agent_check/1, agent_dispose/1, agent_join/3, agent_move/3,
                 agent_property/2, host_property/2, remote/2 ]).
 :- use_module('../../prolog/typhon/kernel/agent/identity', [agent_name/3]).
+:- use_module('../../prolog/typhon/kernel/base/text',
+              [format_shown/2, lines_shown/2]).
 :- use_module('../../prolog/typhon/kernel/host/host_names', [address_parts/3]).
 :- use_module('../../prolog/typhon/tools/inventory', [inventory/4]).
 
@@ -43,14 +45,15 @@ order(join, [Text], Options) :-
     agent_argument(Text, Options, Agent),
     option(timeout(Seconds), Options, 1.0e9),
     agent_join(Agent, Outcome, Seconds),
-    format('~q~n', [Outcome]),
+    format_shown('~q~n', [Outcome]),
     Outcome == done.
 order(remote, [Host, Text], _) :-
     goal_argument(Text, Goal, Bindings),
     remote(Host, with_output_to(string(Output), Goal)),
-    format('~s', [Output]),
+    lines_shown(Output, Shown),
+    write(Shown),
     forall(member(Name=Value, Bindings),
-           format('~w = ~q~n', [Name, Value])).
+           format_shown('~w = ~q~n', [Name, Value])).
 order(stop, [Host], Options) :-
     host_now(Host, Address),
     address_parts(Address, Name, _),

@@ -4,6 +4,7 @@
 :- use_module(library(apply), [include/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../../prolog/typhon', [log_events/2]).
+:- use_module('../../prolog/typhon/kernel/base/text', [format_shown/2]).
 :- use_module('../../prolog/typhon/tools/event_text',
               [event_lines/3, short_name/2]).
 
@@ -53,7 +54,7 @@ print_story(Id, Events) :-
     ->  Zero = Start
     ;   Zero = 0
     ),
-    format('~w~n', [Id]),
+    format_shown('~w~n', [Id]),
     forall(member(Event, Own), print_event(Event, Id, Zero)),
     nl.
 
@@ -64,7 +65,7 @@ print_event(event(Time, Host, Subject, What), Id, Zero) :-
     short_name(Host, Where),
     text(Subject, Id, What, Text),
     Shown is Time-Zero,
-    format('~t~4f~12|  ~w~t~12+ ~w~n', [Shown, Where, Text]).
+    format_shown('~t~4f~12|  ~w~t~12+ ~w~n', [Shown, Where, Text]).
 
 text(Id, Id, What, Text) :-
     !,

@@ -26,6 +26,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module('../typhon', [host_change/2, host_start/2, host_stop/1]).
 :- use_module('../typhon/kernel/base/error_text', [print_error/2]).
+:- use_module('../typhon/kernel/base/text', [format_shown/3, formatted/3]).
 
 /** <module> Platforms
 
@@ -287,7 +288,7 @@ verbosity(0).
 %   Print lines as format/2 does; verbosely/2 only if the platform is verbose.
 
 print_lines(Format, Arguments) :-
-    format(user_output, Format, Arguments),
+    format_shown(user_output, Format, Arguments),
     flush_output(user_output).
 
 verbosely(Format, Arguments) :-
@@ -310,7 +311,8 @@ set_verbosity(Bit) :-
 %   Print an error on the standard error.
 
 print_problem(Format, Arguments) :-
-    print_message(error, format(Format, Arguments)).
+    formatted(Format, Arguments, Text),
+    print_message(error, format('~s', [Text])).
 
 %!  must(:Checks) is det.
 %

@@ -14,6 +14,7 @@ This is the interface of the layer: higher layers import from here.
                 agent_module/5, agent_relink/2, agent_build/5,
                 agent_state/2, agent_state_mobile/3, agent_variant/2 ]).
 :- reexport('agent/identity').
+:- reexport('base/text', [is_printable/1]).
 :- reexport(agent/life,
             [ agent_extras_load/1, agent_extras_missing/1, is_life/1,
               life_before/2, life_came/2, life_clone/3, life_goes/3, life_hop/3,

@@ -15,6 +15,8 @@ are printed with the name of the network and the number of the process.
 thread that follows it.
 */
 
+:- use_module('../kernel/base/text', [format_shown/3]).
+
 :- multifile
     prolog:message//1,
     user:message_hook/3,
@@ -80,7 +82,7 @@ output_line(Child, Line) :-
         print_message(Kind, typhon(child_output(Text))),
         nb_delete(typhon_child_output)).
 output_line(Network-P, Line) :-
-    format(user_output, '[~w/~w] ~s~n', [Network, P, Line]).
+    format_shown(user_output, '[~w/~w] ~w~n', [Network, P, Line]).
 
 %   Errors, warnings and debug messages do not name their process.
 

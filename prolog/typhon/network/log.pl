@@ -10,6 +10,7 @@
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../kernel/base/durable_changes', [durable_closed/0]).
 :- use_module('../kernel/base/error_text', [error_lines/3, print_error/2]).
+:- use_module('../kernel/base/names', [must_be_name/2]).
 :- use_module('../kernel/base/options', [check_options/2]).
 :- use_module('../kernel/base/own_thread', [in_own_thread/1]).
 :- use_module('../kernel/base/server',
@@ -56,6 +57,7 @@ log_serve(Options, Address) :-
     must_be(var, Address),
     check_options(log_server_option, Options),
     option(name(Name), Options, log),
+    must_be_name(log_server_name, Name),
     (   option(file(File), Options)
     ->  true
     ;   existence_error(option, file)

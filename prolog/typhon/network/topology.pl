@@ -11,6 +11,7 @@
                 numlist/3 ]).
 :- use_module(library(ordsets), [ord_subtract/3]).
 :- autoload(library(ugraphs), [reachable/3, vertices_edges_to_ugraph/3]).
+:- use_module('../kernel/agent', [is_printable/1]).
 :- use_module('../kernel/base/options', [blaming/2]).
 :- use_module('../kernel/base/prng',
               [chance_member/4, chance_seed/2, chance_true/4]).
@@ -279,7 +280,8 @@ end_name(End, Name) :-
     (   integer(End),
         End > 0
     ->  number_name(End, Name)
-    ;   atom(End)
+    ;   atom(End),
+        is_printable(End)
     ->  Name = End
     ;   type_error(host_name, End)
     ).

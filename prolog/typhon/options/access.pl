@@ -4,6 +4,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(terms), [mapargs/3]).
 :- use_module('../kernel/base/error_text', [abridged/3, print_error/2]).
+:- use_module('../kernel/base/text', [write_portable/3]).
 :- use_module('../kernel/base/trees', [is_tree/2]).
 :- use_module('../kernel/wire', [endpoint_proof/2]).
 :- use_module('../kernel/host', [host_option/2]).
@@ -117,27 +118,32 @@ note(File, Host, Peer, Proof, What0) :-
 %   Otherwise a peer, or a cell, could fill the disk with large entries.
 
 brief(Term0, Term) :-
-    is_tree(Term0, 500),
+    is_short(Term0),
     !,
     Term = Term0.
 brief(Term0, Term) :-
     compound(Term0),
     compound_name_arity(Term0, Name, Arity),
     Arity =< 3,
-    is_tree(Name, 500),
+    is_short(Name),
     Term0 \= [_|_],
     !,
     mapargs(brief, Term0, Term).
 brief(Term0, large(Text)) :-
     abridged(Term0, 100, Text).
 
+is_short(Term) :-
+    is_tree(Term, 500),
+    format(string(Text), '~q', [Term]),
+    string_length(Text, Length),
+    Length < 2000.
+
 %   The entry holds text that the peer chose: quoting keeps the log readable by
-%   read/1, and the limit of the depth bounds the entry.
+%   read/1, and on one line without hidden characters.
 
 append_line(File, Entry) :-
     setup_call_cleanup(
         open(File, append, Out, [encoding(utf8)]),
-        write_term(Out, Entry,
-                   [ quoted(true), ignore_ops(true), max_depth(20),
-                     fullstop(true), nl(true) ]),
+        write_portable(Out, Entry,
+                       [ignore_ops(true), fullstop(true), nl(true)]),
         close(Out)).

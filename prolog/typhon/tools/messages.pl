@@ -12,11 +12,11 @@ networks and of the log have the texts of their own messages.
 
 :- use_module('../kernel/base/error_text',
               [abridged/3, error_lines/3, term_lines/3]).
+:- use_module('../kernel/base/text', [shown_text/3]).
 :- use_module('../kernel/wire', [endpoint_missed/2, refusal_text/2]).
 :- use_module('../kernel/program', [files_beside/3]).
 :- use_module('../kernel/host',
               [address_parts/3, host_resolve/2]).
-:- use_module('../kernel/agent', [is_printable/1]).
 :- use_module(administration, [host_property/2]).
 :- use_module('../kernel/base/names',
               [names/2, names_joined/3, names_listed/2, names_proposed/3]).
@@ -213,6 +213,8 @@ prolog:message(typhon(not_let_in(Where, Formal))) -->
 prolog:message(typhon(over_limit(Agent, What))) -->
     [ 'Agent ~w is ended: it has used more ~w than its host allows'-
       [Agent, What] ].
+prolog:message(typhon(exhausted(Agent, What))) -->
+    [ 'Agent ~w is ended: it has raised ~p'-[Agent, resource_error(What)] ].
 prolog:message(typhon(runs_on(Agent, Seconds))) -->
     [ 'Agent ~w runs on after ~w s: it is disposed of when it stops next.'-
       [Agent, Seconds], nl,
@@ -329,15 +331,11 @@ message_from(Message, From) -->
 %   named(+Name, -Shown): the recipient of a message, and its claimed sender,
 %   may be any term.
 
-named(Name, Name) :-
-    atom(Name),
-    is_printable(Name),
-    atom_length(Name, Length),
-    Length =< 200,
-    !.
 named(Name, Shown) :-
-    abridged(Name, 200, Text),
-    ( is_printable(Text) -> Shown = Text ; Shown = 'a name that cannot be shown' ).
+    (   atom(Name)
+    ->  shown_text(Name, 200, Shown)
+    ;   abridged(Name, 200, Shown)
+    ).
 
 meant(Kind, Name) -->
     { names(Kind, Names),

@@ -5,7 +5,7 @@
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [append/3, member/2, nth1/3, nth1/4]).
-:- use_module('../kernel/base/text', [print_clause/3]).
+:- use_module('../kernel/base/text', [format_shown/2, print_clause/3]).
 :- use_module('../kernel/program',
               [clause_parts/3, goals_body/2]).
 :- use_module('../kernel/lifecycle', [agent_answer/3]).
@@ -53,7 +53,7 @@ about(Agent, Properties) :-
     memberchk(state(State), Properties),
     memberchk(hops(Hops), Properties),
     functor(State, Word, _),
-    format('% ~w~n% on ~w, ~w, ~D hops~n~n', [Agent, Host, Word, Hops]).
+    format_shown('% ~w~n% on ~w, ~w, ~D hops~n~n', [Agent, Host, Word, Hops]).
 
 %!  goals_shown(+Agent, +Facts, +Goals, -Shown, -Text:string) is det.
 %

@@ -17,6 +17,7 @@ it is made are left out.
               [map_list_to_pairs/3, pairs_keys_values/3, pairs_values/2]).
 :- use_module(library(settings), [setting/2]).
 :- use_module('../kernel/agent', [agent_name/3]).
+:- use_module('../kernel/base/text', [format_shown/2, formatted/3]).
 :- use_module(event_text, [short_name/2]).
 :- use_module(inventory,
               [ inventory/4, inventory_agents/2, inventory_hosts/4,
@@ -164,27 +165,26 @@ print_silent(Silent) :-
     forall(member(Endpoint-Why, Silent), print_silence(Why, Endpoint)).
 
 print_silence(gone, Endpoint) :-
-    format('There is no process at ~w any more~n', [Endpoint]).
+    format_shown('There is no process at ~w any more~n', [Endpoint]).
 print_silence(lost, Endpoint) :-
-    format('The connection to ~w was lost~n', [Endpoint]).
+    format_shown('The connection to ~w was lost~n', [Endpoint]).
 print_silence(late, Endpoint) :-
     setting(typhon_inventory:seconds, Seconds),
-    format('The process at ~w has not answered within ~w s~n',
-           [Endpoint, Seconds]).
+    format_shown('The process at ~w has not answered within ~w s~n',
+                 [Endpoint, Seconds]).
 
 print_table(_, [], What) :-
     !,
     format('No ~ws~n', [What]).
 print_table(Columns, Rows, _) :-
     pairs_keys_values(Columns, Titles, Sides),
-    All = [Titles|Rows],
-    maplist(maplist(width), All, [First|WidthRows]),
+    maplist(maplist(cell_text), [Titles|Rows], All),
+    maplist(maplist(string_length), All, [First|WidthRows]),
     foldl(maplist(wider), WidthRows, First, Widths),
     maplist(print_row(Sides, Widths), All).
 
-width(Cell, Width) :-
-    format(string(Text), '~w', [Cell]),
-    string_length(Text, Width).
+cell_text(Cell, Text) :-
+    formatted('~w', [Cell], Text).
 
 wider(Width, Widest0, Widest) :-
     Widest is max(Width, Widest0).

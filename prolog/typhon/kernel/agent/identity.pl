@@ -3,8 +3,6 @@
             agents_passed/0,
             agent_id/3,                 % +Name, +Home, -Id
             agent_name/3,               % +Id, -Name, -Number
-            must_be_agent_name/1,       % @Name
-            is_printable/1,             % +Text
             agent_home/2,               % +Id, -Home
             agent_home_endpoint/2,      % +Id, -Endpoint
             agent_origin/5,             % +Host, +Id, +Hash, +State, -Origin
@@ -13,9 +11,8 @@
             origin_inherited/3,         % +Id, +State0, -State
             origin_passed/4             % +Parent, +Endpoint, +State0, -State
           ]).
-:- use_module(library(error),
-              [domain_error/2, must_be/2, representation_error/1]).
-:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(error), [representation_error/1]).
+:- use_module(library(lists), [append/3]).
 :- use_module('../base/durable', [durable/6]).
 :- use_module('../base/durable_changes', [durable_key/2, durable_on/0]).
 :- use_module('../wire', [endpoint_address/1]).
@@ -200,62 +197,6 @@ origin_passed(Id-_, Endpoint, State, State) :-
 origin_passed(Id-_, _, state(PIs, Clauses),
               state(PIs, ['$owner'(home(Home))|Clauses])) :-
     agent_home_endpoint(Id, Home).
-
-                /*******************************
-                *             NAMES            *
-                *******************************/
-
-%!  must_be_agent_name(@Name) is det.
-%
-%   A name has no `@`: the first `@` of an id ends the name.  It is printable,
-%   because every process that the agent comes to prints it in messages.
-%
-%   @error type_error(atom, Name), domain_error(agent_name, Name)
-
-must_be_agent_name(Name) :-
-    must_be(atom, Name),
-    (   Name \== '',
-        \+ sub_atom(Name, _, _, _, @),
-        is_printable(Name)
-    ->  true
-    ;   domain_error(agent_name, Name)
-    ).
-
-%!  is_printable(+Text) is semidet.
-%
-%   Text, an atom or string, has no control characters, and no invisible ones,
-%   such as those that change the direction of text.  Zero bytes are tested
-%   apart because split_string/4 ignores them as padding.
-
-is_printable(Text) :-
-    \+ sub_atom(Text, _, _, _, '\000\'),
-    (   printable_ascii(Ascii),
-        split_string(Text, "", Ascii, [""])     % in one call of C
-    ->  true
-    ;   string_codes(Text, Codes),
-        \+ ( member(Code, Codes), is_hidden(Code) )
-    ).
-
-printable_ascii(" !\"#$%&'()*+,-./0123456789:;<=>?@\c
-                 ABCDEFGHIJKLMNOPQRSTUVWXYZ[\\]^_`abcdefghijklmnopqrstuvwxyz{|}~").
-
-is_hidden(Code) :-
-    hidden(First, Last),
-    Code >= First,
-    Code =< Last,
-    !.
-
-%   Controls, directions, line separators, surrogate halves, and tags.
-
-hidden(0, 31).
-hidden(127, 159).
-hidden(0x200b, 0x200f).
-hidden(0x2028, 0x202e).
-hidden(0x2060, 0x206f).
-hidden(0xd800, 0xdfff).
-hidden(0xfeff, 0xfeff).
-hidden(0xfff9, 0xfffb).
-hidden(0xe0000, 0xe007f).
 
                 /*******************************
                 *            MUTEXES           *

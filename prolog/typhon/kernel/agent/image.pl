@@ -23,7 +23,8 @@
 :- use_module('../host', [amended/5, event_subscribed/1, host/3, parts/3]).
 :- use_module(agents, [agent/5, agent_enter/3, agent_mail/2]).
 :- use_module(agent_module, [agent_build/5, agent_state/2]).
-:- use_module(identity, [agent_home/2, is_printable/1, origin_inherited/3]).
+:- use_module('../base/text', [is_printable/1]).
+:- use_module(identity, [agent_home/2, origin_inherited/3]).
 :- use_module(payloads, [no_result_facts/2]).
 :- use_module(life,
               [is_life/1, life_clone/3, life_hop/3, life_hops/2]).

@@ -11,6 +11,7 @@
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [member/2]).
+:- use_module(shown_lines, [shown_lines/2]).
 :- use_module(trees, [is_tree/2]).
 
 /** <module> Errors from elsewhere as text
@@ -106,7 +107,8 @@ plainly(Message, Text) :-
     current_prolog_flag(print_write_options, Old),
     setup_call_cleanup(
         set_prolog_flag(print_write_options, Options),
-        ( phrase(Message, Lines),
+        ( phrase(Message, Lines0),
+          shown_lines(Lines0, Lines),
           with_output_to(string(Text0),
                          print_message_lines(current_output, '', Lines)) ),
         set_prolog_flag(print_write_options, Old)),
@@ -265,11 +267,12 @@ translated(Ball) :-
 
 %   accepts(+Term, ?Any, :Hook): a clause of Hook, whose argument Any is the
 %   term, accepts Term.  A clause that accepts any term counts if the predicate
-%   to which it passes the term accepts it.
+%   to which it passes the term accepts it; that of typhon_shown_lines does not.
 
 accepts(Term, Any, Hook) :-
     predicate_property(Hook, defined),
     clause(Hook, Body),
+    Body \= typhon_shown_lines:_,
     (   var(Any),
         Body = Module:Goal,
         callable(Goal),

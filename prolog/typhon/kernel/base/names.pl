@@ -1,5 +1,6 @@
 :- module(typhon_names,
-          [ names/2,                    % +Kind, -Names
+          [ must_be_name/2,             % +Domain, @Name
+            names/2,                    % +Kind, -Names
             names_near/3,               % +Name, +Names, -Near
             names_proposed/3,           % +Name, +Names, -Text
             names_listed/2,             % +Names, -Text
@@ -7,10 +8,12 @@
             names_some/3                % +Names, +Most, -Text
           ]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [append/3, last/2, member/2]).
+:- use_module(text, [is_printable/1]).
 :- autoload(library(solution_sequences), [limit/2]).
 
-/** <module> Names that users mistype
+/** <module> Names, and those that users mistype
 
 The modules that own a kind of names (hosts, programs, options, topologies)
 define the names by clauses of known/2.  Messages use them for proposals and
@@ -21,6 +24,25 @@ lists, and the top level for completion.
 
 :- multifile
     known/2.                    % Kind, Name: an atom, or a term like ring('N')
+
+%!  must_be_name(+Domain, @Name) is det.
+%
+%   Name can be the name of a host, an agent or a log server.  It has no `@`: the
+%   first `@` of an id or address ends the name.  It is printable, because every
+%   process that knows the id or address prints it in messages.
+%
+%   @error type_error(atom, Name), domain_error(Domain, Name)
+
+must_be_name(Domain, Name) :-
+    must_be(atom, Name),
+    (   Name \== '',
+        \+ sub_atom(Name, _, _, _, @),
+        is_printable(Name)
+    ->  true
+    ;   throw(error(domain_error(Domain, Name),
+                    context(_, 'a name is not empty, and has no @ and no \c
+                                hidden characters')))
+    ).
 
 %   Longer lists of names are not searched.
 

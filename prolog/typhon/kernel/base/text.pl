@@ -2,10 +2,17 @@
           [ term_text/2,                % +Term, -Bytes
             text_term/2,                % +Bytes, -Term
             write_portable/3,           % +Out, +Term, +Options
-            print_clause/3              % +Out, +Clause, +Options
+            print_clause/3              % +Out, +Clause, +Options,
+            is_printable/1,             % +Text
+            shown_text/2,               % +Text, -Shown
+            shown_text/3,               % +Text, +Longest, -Shown
+            lines_shown/2,              % +Text, -Shown
+            formatted/3,                % +Format, +Args, -Text
+            format_shown/2,             % +Format, +Args
+            format_shown/3              % +Out, +Format, +Args
           ]).
 
-/** <module> The canonical text of a term
+/** <module> The canonical text of a term, and text as it may be printed
 
 Text that any SWI-Prolog of any word size reads back as the same term, whatever
 operators and flags either side has set: functional notation, special floats
@@ -13,10 +20,16 @@ spelled out, UTF-8. Characters beyond ASCII are quoted, because versions
 disagree on those that need quotes. Those that are not letters are written as
 escape sequences, because 10.1 cannot read some of them in quotes.
 
+Text that agents or peers chose may hold characters that control a terminal,
+begin a line, or hide other text.  shown_text/2 writes them as escape sequences.
+All messages (see typhon_shown_lines), tables and output of child processes pass
+through it.
+
 *Threading*: no shared state. The flags for writing and reading are local to a
 thread and are restored.
 */
 
+:- autoload(library(apply), [maplist/3]).
 :- autoload(library(error), [resource_error/1, syntax_error/1]).
 :- autoload(library(listing), [portray_clause/3]).
 :- autoload(library(lists), [member/2]).
@@ -271,3 +284,145 @@ print_clause(Out, Clause, Options) :-
     portray_clause(Out, Clause, [module(typhon_print_clause)|Options]).
 
 user:exception(undefined_predicate, typhon_print_clause:_, error).
+
+                /*******************************
+                *          SHOWN TEXT          *
+                *******************************/
+
+%!  format_shown(+Format, +Args:list) is det.
+%!  format_shown(+Out, +Format, +Args:list) is det.
+%!  formatted(+Format, +Args, -Text:string) is det.
+%
+%   As format/2,3, with escape sequences for characters of Args that
+%   is_printable/1 excludes.  Only Format can break lines.
+
+format_shown(Format, Args) :-
+    format_shown(current_output, Format, Args).
+
+format_shown(Out, Format, Args) :-
+    formatted(Format, Args, Text),
+    write(Out, Text).
+
+formatted(Format, Args0, Text) :-
+    (   breaks_lines(Format),
+        is_list(Args0)
+    ->  maplist(argument_shown, Args0, Args),
+        format(string(Text0), Format, Args),
+        lines_shown(Text0, Text)
+    ;   format(string(Text0), Format, Args0),
+        shown_text(Text0, Text)
+    ).
+
+breaks_lines(Format) :-
+    member(Break, ['\n', '~n', '~2n', '~N', '~@']),
+    sub_atom(Format, _, _, _, Break),
+    !.
+
+argument_shown(Arg, Shown) :-
+    ( atom(Arg) ; string(Arg) ),
+    !,
+    shown_text(Arg, Shown).
+argument_shown(Arg, Arg).
+
+%!  lines_shown(+Text, -Shown:string) is det.
+%
+%   As shown_text/2, for each line of Text.
+
+lines_shown(Text, Shown) :-
+    split_string(Text, "\n", "", Lines0),
+    maplist(shown_text, Lines0, Lines),
+    atomic_list_concat(Lines, '\n', Atom),
+    atom_string(Atom, Shown).
+
+%!  shown_text(+Text, -Shown:string) is det.
+%!  shown_text(+Text, +Longest, -Shown:string) is det.
+%
+%   Shown is Text with escape sequences for characters that is_printable/1
+%   excludes, and at most Longest (10,000) characters: longer text ends with
+%   three dots.
+
+shown_text(Text, Shown) :-
+    shown_text(Text, 10 000, Shown).
+
+shown_text(Text, Longest, Shown) :-
+    cut_off(Text, Longest, Begin),
+    (   is_printable(Begin)
+    ->  Shown = Begin
+    ;   string_codes(Begin, Codes),
+        with_output_to(string(Escaped),
+                       forall(member(Code, Codes), show_code(Code))),
+        cut_off(Escaped, Longest, Shown)
+    ).
+
+cut_off(Text, Longest, Cut) :-
+    (   sub_string(Text, 0, Longest, After, _),
+        After > 0
+    ->  Length is max(0, Longest-3),
+        sub_string(Text, 0, Length, _, Begin),
+        string_concat(Begin, "...", Cut)
+    ;   text_to_string(Text, Cut)
+    ).
+
+show_code(0'\n) :- !, write('\\n').
+show_code(0'\t) :- !, write('\\t').
+show_code(Code) :-
+    (   is_hidden(Code)
+    ->  format('\\x~16R\\', [Code])
+    ;   put_char(Code)
+    ).
+
+%!  is_printable(+Text) is semidet.
+%
+%   Text, an atom or string, has no control characters, and no invisible ones,
+%   such as those that change the direction of text.  Zero bytes are tested
+%   apart because split_string/4 ignores them as padding.
+
+is_printable(Text) :-
+    \+ sub_atom(Text, _, _, _, '\000\'),
+    (   printable_ascii(Ascii),
+        split_string(Text, "", Ascii, [""])     % in one call of C
+    ->  true
+    ;   string_codes(Text, Codes),
+        \+ ( member(Code, Codes), is_hidden(Code) )
+    ).
+
+printable_ascii(" !\"#$%&'()*+,-./0123456789:;<=>?@\c
+                 ABCDEFGHIJKLMNOPQRSTUVWXYZ[\\]^_`abcdefghijklmnopqrstuvwxyz{|}~").
+
+is_hidden(Code) :-
+    hidden(First, Last),
+    Code >= First,
+    Code =< Last,
+    !.
+
+%   Controls, line separators, the format characters of Unicode (category Cf),
+%   other invisible ones, surrogate halves, and codes that are no characters.
+
+hidden(0, 31).
+hidden(127, 159).
+hidden(0xad, 0xad).
+hidden(0x34f, 0x34f).
+hidden(0x600, 0x605).
+hidden(0x61c, 0x61c).
+hidden(0x6dd, 0x6dd).
+hidden(0x70f, 0x70f).
+hidden(0x890, 0x891).
+hidden(0x8e2, 0x8e2).
+hidden(0x115f, 0x1160).
+hidden(0x17b4, 0x17b5).
+hidden(0x180b, 0x180f).
+hidden(0x200b, 0x200f).
+hidden(0x2028, 0x202e).
+hidden(0x2060, 0x206f).
+hidden(0x3164, 0x3164).
+hidden(0xd800, 0xdfff).
+hidden(0xfeff, 0xfeff).
+hidden(0xffa0, 0xffa0).
+hidden(0xfff0, 0xfffb).
+hidden(0xfffe, 0xffff).
+hidden(0x110bd, 0x110bd).
+hidden(0x110cd, 0x110cd).
+hidden(0x13430, 0x1343f).
+hidden(0x1bca0, 0x1bca3).
+hidden(0x1d173, 0x1d17a).
+hidden(0xe0000, 0xe0fff).

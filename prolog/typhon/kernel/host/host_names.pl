@@ -4,6 +4,7 @@
             address_parts/3             % ?Address, ?Name, ?Endpoint
           ]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
+:- use_module('../base/text', [is_printable/1]).
 :- use_module('../wire', [endpoint_address/1]).
 :- use_module(hosts, [host/3]).
 :- use_module(links, [host_linked/1]).
@@ -51,6 +52,7 @@ error:has_type(host_address, Address) :-
 is_address(Address, Name, Endpoint) :-
     address_parts(Address, Name, Endpoint),
     sub_atom(Endpoint, _, _, _, :),
+    is_printable(Address),
     !.
 
 %!  host_resolve(+Host, -Where) is det.

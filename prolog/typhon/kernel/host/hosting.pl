@@ -12,11 +12,11 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error),
-              [ domain_error/2, existence_error/2, must_be/2,
-                permission_error/3 ]).
+              [existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/names', [must_be_name/2]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module('../base/durable_changes',
@@ -120,22 +120,11 @@ host_start(Name) :-
     host_start(Name, []).
 
 host_start(Name, Options) :-
-    must_be(atom, Name),
+    must_be_name(host_name, Name),
     check_options(host_option, Options),
-    must_be_name(Name),
     parts_load(Options),
     forall(typhon_host_parts:check(Options), true),
     with_mutex(typhon_hosting, start(Name, Options)).
-
-%   In an address the name ends at the first `@`.
-
-must_be_name(Name) :-
-    (   Name \== '',
-        \+ sub_atom(Name, _, _, _, @)
-    ->  true
-    ;   throw(error(domain_error(host_name, Name),
-                    context(_, 'a name is not empty and has no @')))
-    ).
 
 start(Name, Options) :-
     starts(Name, Options),

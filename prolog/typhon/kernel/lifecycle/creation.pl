@@ -11,6 +11,7 @@
 :- autoload(library(occurs), [sub_term/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../base/options', [check_options/2]).
+:- use_module('../base/names', [must_be_name/2]).
 :- use_module('../program',
               [ clause_parts/3, code_install/3, code_locate/2, code_program/2,
                 code_sent/2, payload_load/2, program_load/6 ]).
@@ -21,8 +22,7 @@
               [amended/5, host/3, host_resolve/2, process_ask/6]).
 :- use_module('../agent',
               [ agent/5, gate_refused/4, is_life/1, make_life/5,
-                must_be_agent_name/1, not_carried/2, origin_passed/4,
-                payload_marks/2 ]).
+                not_carried/2, origin_passed/4, payload_marks/2 ]).
 :- use_module(beginning, [agent_begins/5, begins_at_once/1, begun_agent/3]).
 :- use_module(questions, [agent_met/1]).
 
@@ -92,7 +92,7 @@ create_by(Options, Parent, Spec, Agent) :-
     program_of(Spec, Parent, Program, Initial, Hash),
     Program = program(Name0, Declared, _, Clauses),
     option(name(Name), Options, Name0),
-    must_be_agent_name(Name),
+    must_be_name(agent_name, Name),
     birth(Options, Declared, Initial, Clauses, Life, State0),
     mobile_term(State0),
     from_parent(Parent, Target, State0, State),
@@ -256,7 +256,7 @@ create_answered(HostName, Name, Start, Program, Peer, ReplyTo) :-
 
 create_for(From, HostName, Name, start(Hash, Life, State0, Goals, Mail),
            Answer) :-
-    must_be_agent_name(Name),
+    must_be_name(agent_name, Name),
     must_be_life(Life),
     must_be_state(State0),
     must_be(list, Goals),

@@ -1,0 +1,235 @@
+:- module(test_shown_text, []).
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/fixtures').
+:- use_module('../../../lib/peers').
+:- use_module('../../../../prolog/typhon/kernel/base/error_text').
+:- use_module('../../../../prolog/typhon/kernel/base/text').
+:- use_module('../../../../prolog/typhon/network/child_output', [output_line/2]).
+:- use_module(library(plunit)).
+:- use_module(library(debug)).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(random), [random_member/2]).
+:- use_module(library(readutil), [read_file_to_string/3, read_file_to_terms/3]).
+:- use_module(library(typhon)).
+:- use_module(library(typhon/tools/tables), []).
+
+/** <module> No text of an agent or a peer controls the terminal
+
+*Threading*: one test at a time.
+*/
+
+%   wicked(-Code): a terminal obeys it, or a reader does not see it.
+
+wicked(Code) :- between(0, 31, Code).
+wicked(Code) :- between(127, 159, Code).
+wicked(Code) :-
+    member(Code, [ 0xad, 0x61c, 0x180e, 0x200b, 0x200e, 0x200f, 0x2028, 0x2029,
+                   0x202a, 0x202e, 0x2060, 0x2066, 0x2069, 0xfeff, 0xfff9,
+                   0xe0001, 0xe0041 ]).
+
+%   random_name(-Name): an atom with a wicked character among others.
+
+random_name(Name) :-
+    findall(Code, wicked(Code), Codes),
+    random_member(Wicked, Codes),
+    random_member(Before, ["", "a", "[2J", "\u00e9~w", "~n"]),
+    random_member(After, ["", "b", "]0;x", "\u4e2d", "\nERROR: b"]),
+    format(atom(Name), '~s~c~s', [Before, Wicked, After]).
+
+%   term_of(+Name, -Term): an error or message that holds Name.
+
+term_of(N, error(type_error(N, x), _)).
+term_of(N, error(type_error(x, N), context(N/1, N))).
+term_of(N, error(domain_error(N, f(N)), context(_, N))).
+term_of(N, error(existence_error(N, N), _)).
+term_of(N, error(existence_error(host, N), _)).
+term_of(N, error(existence_error(agent, N), _)).
+term_of(N, error(existence_error(x, N, N), _)).
+term_of(N, error(permission_error(N, N, N), context(_, N))).
+term_of(N, error(representation_error(N), _)).
+term_of(N, error(evaluation_error(N), _)).
+term_of(N, error(resource_error(N), _)).
+term_of(N, error(syntax_error(N), string(N, 0))).
+term_of(N, error(syntax_error(x), file(N, 1, 2, 3))).
+term_of(N, error(timeout_error(N, N), _)).
+term_of(N, error(io_error(N, N), context(N, N))).
+term_of(N, error(socket_error(x, N), _)).
+term_of(N, error(system_error(N), _)).
+term_of(N, error(shell(N, N), _)).
+term_of(N, error(move_refused(N, N), _)).
+term_of(N, error(host_unreachable(N), _)).
+term_of(N, error(N, N)).
+term_of(N, unhandled_exception(N)).
+term_of(N, unhandled_exception(error(type_error(N, N), _))).
+term_of(N, typhon(raised(N))).
+term_of(N, typhon(told(N, N))).
+term_of(N, typhon(log(N, N, f(N)))).
+term_of(N, typhon(over_limit(N, N))).
+term_of(N, typhon(message_failed(N, N, N))).
+term_of(N, typhon(undeliverable(existence_error(agent, N), N, N, N))).
+term_of(N, typhon(not_from(N, N, N))).
+term_of(N, typhon(traced(N, N, sent(N, N)))).
+term_of(N, typhon(log_unheard(N))).
+term_of(N, typhon(N)).
+
+as_printed(Term, Text) :-
+    '$messages':translate_message(Term, Lines, []),
+    with_output_to(string(Text),
+                   print_message_lines(current_output, 'E ', Lines)).
+
+%   is_clean(+Text): all lines begin with the prefix, and have no wicked
+%   character.
+
+is_clean(Text0) :-
+    split_string(Text0, "", "\n", [Text]),
+    forall(( string_code(_, Text, Code), Code =\= 10 ), \+ wicked(Code)),
+    split_string(Text, "\n", "", Lines),
+    forall(member(Line, Lines), string_concat("E ", _, Line)),
+    \+ ( member(Line, Lines), string_concat("E ERROR", _, Line) ).
+
+string_code(I, Text, Code) :-
+    string_length(Text, Length),
+    between(1, Length, I),
+    string_code_at(I, Text, Code).
+
+string_code_at(I, Text, Code) :-
+    system:string_code(I, Text, Code).
+
+escaping(Found) :-
+    findall(Term-Text,
+            ( between(1, 40, _), random_name(Name), term_of(Name, Term),
+              as_printed(Term, Text), \+ is_clean(Text) ),
+            Found).
+
+:- begin_tests(shown_text).
+
+test(no_message_has_hidden_characters, Found == []) :-
+    escaping(Found).
+test(no_error_text_has_hidden_characters, Found == []) :-
+    findall(Error-Text,
+            ( between(1, 40, _), random_name(Name), term_of(Name, Error),
+              error_text(Error, Text0), string_concat("E ", Text0, Text1),
+              split_string(Text1, "\n", "", [Line|_]),
+              Text = Line, \+ is_clean(Text) ),
+            Found).
+test(letters_stay_readable, Text == "Zo\u00eb \u4e2d\u6587 \U0001F600 \u043c") :-
+    shown_text('Zo\u00eb \u4e2d\u6587 \U0001F600 \u043c', Text).
+test(escapes, Text == "a\\nb\\x1B\\[2J\\x202E\\") :-
+    shown_text('a\nb\e[2J\u202e', Text).
+test(length_is_bounded, [forall(member(Char, [a,'\e'])), true(Length == 10 000)]) :-
+    length(Chars, 100 000),
+    maplist(=(Char), Chars),
+    atom_chars(Long, Chars),
+    shown_text(Long, Text),
+    string_length(Text, Length).
+test(messages_are_bounded, true(Length < 25 000)) :-
+    format(atom(Long), '~*c', [1 000 000, 0'a]),
+    as_printed(error(type_error(Long, Long), _), Text),
+    string_length(Text, Length).
+test(debug_messages, Clean == true) :-
+    with_tmp_dir(debugged('a\e[2J', Text)),
+    ( sub_string(Text, _, _, _, "\e") -> Clean = Text ; Clean = true ).
+test(messages_without_them_are_unchanged, true(Line == "~w at ~w: "-[b,a])) :-
+    '$messages':translate_message(typhon(log(a, b, c)), Lines, []),
+    Lines = [Format-Args|_],
+    atom_string(Format, Text),
+    Line = Text-Args.
+test(output_of_child_processes, Text == "[n/1] a\\x1B\\[2J\n") :-
+    with_tmp_dir(printed_by_child("a\e[2J", Text)).
+test(names_of_hosts, [ forall(member(Name, ['a\nb', 'a\e[2J', 'a\u202eb', ''])),
+                       error(domain_error(host_name, _)) ]) :-
+    host_start(Name).
+test(names_of_log_servers, error(domain_error(log_server_name, _))) :-
+    log_server_start([name('a\nb'), file('/nowhere/x')], _).
+test(addresses, error(existence_error(host, _))) :-
+    with_hosts([h], remote('a\nb@127.0.0.1:1', true)).
+test(errors_of_another_process, Found == []) :-
+    no_leaks(with_peers([p-[host([])]], with_hosts([h],
+        findall(Text,
+                ( peer_host(p, There),
+                  between(1, 20, _), random_name(Name),
+                  member(Ball, [ type_error(Name, x), resource_error(Name),
+                                 existence_error(Name, Name) ]),
+                  catch(remote(There, throw(error(Ball, context(_, Name)))),
+                        Error, true),
+                  as_printed(unhandled_exception(Error), Text),
+                  \+ is_clean(Text) ),
+                Found)))).
+test(agents_write_no_over_into_the_audit, Found == []) :-
+    with_tmp_dir(raised_on_host(Found)).
+test(audit_is_bounded_and_printable, Found == []) :-
+    with_tmp_dir(audited(Found)).
+
+:- end_tests(shown_text).
+
+debugged(Text, Printed, Dir) :-
+    directory_file_path(Dir, debug, File),
+    setup_call_cleanup(
+        ( open(File, write, Out, [encoding(utf8)]),
+          debug(typhon(test) > Out) ),
+        debug(typhon(test), '~w~n', [Text]),
+        ( nodebug(typhon(test)), close(Out) )),
+    read_file_to_string(File, Printed, [encoding(utf8)]).
+
+printed_by_child(Line, Text, Dir) :-
+    directory_file_path(Dir, out, File),
+    stream_property(Old, alias(user_output)),
+    setup_call_cleanup(
+        ( open(File, write, Out, [encoding(utf8)]),
+          set_stream(Out, alias(user_output)) ),
+        output_line(n-1, Line),
+        ( set_stream(Old, alias(user_output)), close(Out) )),
+    read_file_to_string(File, Text, [encoding(utf8)]).
+
+%   Agents raise errors as quotas do.
+
+raised_on_host(Found, Dir) :-
+    directory_file_path(Dir, audit, Audit),
+    with_hosts([ h-[ audit(Audit),
+                     quota([ messages(5), seconds(20), inferences(100 000 000),
+                             state(1 000 000), stack(64 000 000) ]) ] ],
+               capturing(forall(forged(Ball), ended_by(Ball)), _)),
+    entries(Audit, Found).
+
+forged(error(resource_error(What), _)) :-
+    member(What, [messages, seconds, stack, state, program_space, inferences,
+                  'any text', hops, lifetime]).
+forged(error(resource_error(stack), context(_, _))).
+forged(inference_limit_exceeded).
+
+ended_by(Ball) :-
+    create([ (main :- throw(Ball)) ], A, [host(h)]),
+    wait_until(( \+ agent_property(A, _) ; state_of(A, faulty(_)) ), 20),
+    catch(agent_dispose(A), error(_, _), true).
+
+entries(File, Entries) :-
+    (   exists_file(File)
+    ->  read_file_to_terms(File, Entries, [encoding(utf8)])
+    ;   Entries = []
+    ).
+
+%   Names and reasons that a refused agent chooses.
+
+audited(Found, Dir) :-
+    directory_file_path(Dir, audit, Audit),
+    format(atom(Long), '~*c', [100 000, 0'a]),
+    with_hosts([h-[audit(Audit), tokens([t])]],
+               forall(( between(1, 30, _), random_name(Name) ),
+                      ( typhon_remote:security_event(h, refused(Name, Name)),
+                        typhon_remote:security_event(h, refused(Long, Name))
+                      ))),
+    read_file_to_string(Audit, Text, [encoding(utf8)]),
+    split_string(Text, "\n", "", Lines),
+    findall(Line, ( member(Line, Lines), wicked_line(Line) ), Found).
+
+wicked_line(Line) :-
+    string_length(Line, Length),
+    Length > 3000.
+wicked_line(Line) :-
+    string_code(_, Line, Code),
+    wicked(Code).
+wicked_line(Line) :-
+    Line \== "",
+    \+ catch(( term_string(Term, Line), Term = audit(_, h, _, _, _) ),
+             error(_, _), fail).
