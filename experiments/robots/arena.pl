@@ -5,6 +5,7 @@
             scene_file/2                % +Scene, -File
           ]).
 :- use_module('../../prolog/typhon/kernel/base/own_thread', [in_own_thread/1]).
+:- use_module('../../prolog/typhon/kernel/base/private', [private_folder/2]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(filesex), 
               [delete_directory_and_contents/1, relative_file_name/3]).
@@ -56,8 +57,8 @@ nxt_file(Name, File) :-
 %   @error arena_error(start, Text)
 
 arena_start(Scene, Options, Arena, Bricks) :-
-    tmp_file(arena, Dir),
-    make_directory(Dir),
+    tmp_file(arena, Prefix),
+    private_folder(Prefix, Dir),
     arguments(Scene, Dir, Options, Arguments),
     python(Python),
     process_create(Python, Arguments,

@@ -21,6 +21,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(listing), [portray_clause/2]).
 :- use_module(library(readutil), [read_file_to_terms/3]).
+:- use_module('../typhon/kernel/base/private', [private_open/4]).
 :- use_module(clauses, [body/3, body_copy/2, body_erase/2, body_install/1]).
 :- use_module(platform, [here/1, must/1, port_closed/1, print_problem/2]).
 
@@ -272,7 +273,7 @@ await(Thread) :-
 save_agent(Name, File) :-
     body_of(Name, Indicators, Clauses),
     setup_call_cleanup(
-        open(File, write, Out, [encoding(utf8)]),
+        private_open(File, write, Out, [encoding(utf8)]),
         ( forall(member((Predicate,Arity), Indicators),
                  format(Out, ":- dynamic ~q/~d.~n", [Predicate, Arity])),
           nl(Out),
@@ -301,7 +302,7 @@ written(Out, Clause) :-
 
 save_tartarus_state(File) :-
     setup_call_cleanup(
-        open(File, write, Out, [encoding(utf8)]),
+        private_open(File, write, Out, [encoding(utf8)]),
         forall(record(Name, Handler, _), save(Out, Name, Handler)),
         close(Out)).
 

@@ -12,6 +12,8 @@
           ]).
 :- use_module('../typhon', [agent_property/2, agent_send/2, remote/2]).
 :- use_module('../typhon/kernel/base/error_text', [print_error/2]).
+:- use_module('../typhon/kernel/base/private', [private_open/4]).
+:- use_module('../typhon/kernel/base/text', [format_shown/3]).
 :- use_module(lives, [record/3, run_apart/1]).
 :- use_module(platform,
               [ here/1, location_address/2, print_lines/2, print_problem/2,
@@ -198,7 +200,7 @@ send(File, Name, Message) :-
 logged(File, Entry, true) :-
     with_mutex(tartarus_log,
                setup_call_cleanup(
-                   open(File, append, Out, [encoding(utf8)]),
-                   format(Out, "~n~w", [Entry]),
+                   private_open(File, append, Out, [encoding(utf8)]),
+                   format_shown(Out, "~n~w", [Entry]),
                    close(Out))),
     print_lines("~w~n", [Entry]).

@@ -6,6 +6,7 @@
             log_goes_on/2               % +File, +Size
           ]).
 :- use_module(library(error), [existence_error/2]).
+:- use_module('../kernel/base/private', [private_open/4]).
 :- autoload(library(readutil), [read_line_to_string/2]).
 
 /** <module> The file of a log
@@ -37,8 +38,8 @@ cut short by a crash costs only that line.
 
 log_open(File, Mode, Stream) :-
     may_write(File),
-    catch(open(File, Mode, Stream,
-               [ encoding(ascii), newline(posix), buffer(full) ]),
+    catch(private_open(File, Mode, Stream,
+                       [ encoding(ascii), newline(posix), buffer(full) ]),
           error(existence_error(_, _), _),
           not_writable(File)),
     (   Mode == append,

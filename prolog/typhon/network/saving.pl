@@ -5,10 +5,11 @@
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(error),
               [ existence_error/2, must_be/2, permission_error/3 ]).
-:- use_module(library(lists), [append/2, append/3, member/2, numlist/3]).
+:- use_module(library(lists), [append/2, member/2, numlist/3]).
 :- autoload(library(readutil), [read_file_to_string/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(sha), [hash_atom/2, sha_hash/3]).
+:- use_module('../kernel/base/private', [private_write/2]).
 :- use_module('../kernel/base/text', [term_text/2, text_term/2]).
 :- use_module('../kernel/host',
               [context_now/2, time_due/3, time_kind/1, time_now/1]).
@@ -235,26 +236,13 @@ format_version(1).
 
 saved_write(Spec, Terms) :-
     absolute_file_name(Spec, File),
-    atom_concat(File, '.new', New),
     header(Header),
-    catch(( write_lines(New, write, [Header|Terms]),
-            sum(New, Sum),
-            write_lines(New, append, [end(Sum)]),
-            rename_file(New, File) ),
-          Ball,
-          ( catch(delete_file(New), error(_, _), true),
-            names_file(File, New, Ball, Told),
-            throw(Told) )).
+    private_write(File, write_all([Header|Terms])).
 
-%   Errors name File in place of its temporary name New.
-
-names_file(File, New, error(Formal0, Context), error(Formal, Context)) :-
-    Formal0 =.. Parts0,
-    append(Kind, [New], Parts0),
-    !,
-    append(Kind, [File], Parts),
-    Formal =.. Parts.
-names_file(_, _, Ball, Ball).
+write_all(Terms, New) :-
+    write_lines(New, write, Terms),
+    sum(New, Sum),
+    write_lines(New, append, [end(Sum)]).
 
 header(typhon_saved(Version, Prolog, Platform)) :-
     format_version(Version),

@@ -4,6 +4,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(terms), [mapargs/3]).
 :- use_module('../kernel/base/error_text', [abridged/3, print_error/2]).
+:- use_module('../kernel/base/private', [private_open/4]).
 :- use_module('../kernel/base/text', [write_portable/3]).
 :- use_module('../kernel/base/trees', [is_tree/2]).
 :- use_module('../kernel/wire', [endpoint_proof/2]).
@@ -143,7 +144,7 @@ is_short(Term) :-
 
 append_line(File, Entry) :-
     setup_call_cleanup(
-        open(File, append, Out, [encoding(utf8)]),
+        private_open(File, append, Out, [encoding(utf8)]),
         write_portable(Out, Entry,
                        [ignore_ops(true), fullstop(true), nl(true)]),
         close(Out)).

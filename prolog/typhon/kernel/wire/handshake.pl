@@ -30,12 +30,11 @@ lines are exchanged. The cookie is kept with the time stamp of its file in one
 fact; two threads that read it at once store the same.
 */
 
-:- autoload(library(filesex),
-            [chmod/2, delete_directory_and_contents/1, link_file/3]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [must_be/2, permission_error/3, syntax_error/1]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(sha), [hash_atom/2, hmac_sha/4]).
+:- use_module('../base/private', [private_new/2]).
 :- use_module(frame, [check_bytes/2]).
 :- use_module(transport, [line_read/3, line_write/2]).
 
@@ -295,8 +294,8 @@ random_hex(Count, Hex) :-
 %   `TYPHON_COOKIE_FILE`, by default `~/.typhon.cookie`. The file is made
 %   with random content on first use.
 %
-%   @error permission_error(use, cookie_file, File) if others may read or write
-%   it, or it has no cookie; the context says which
+%   @error permission_error(use, cookie_file, File) if it belongs to another user,
+%   others may read or write it, or it has no cookie; the context says which
 
 cookie(Cookie) :-
     getenv('TYPHON_COOKIE', Value),
@@ -341,8 +340,9 @@ read_cookie(File, Cookie) :-
 unfit(File, Why) :-
     throw(error(permission_error(use, cookie_file, File), context(_, Why))).
 
-%   Prolog has no predicate for the mode of a file; ls prints it, as -rw-------,
-%   on all systems with modes. A pipe needs no library(process), which is as
+%   Prolog has no predicate for the owner and the mode of a file; `test -O` checks
+%   that the owner is this user, and ls prints the mode, as -rw-------, on all
+%   systems with modes. A pipe needs no library(process), which is as
 %   large as three modules of this library.
 
 check_private(_) :-
@@ -350,12 +350,14 @@ check_private(_) :-
     !.
 check_private(File) :-
     shell_word(File, Word),
-    atom_concat('exec ls -lnd -- ', Word, Command),
+    format(atom(Command), 'test -O ~w && exec ls -lnd -- ~w', [Word, Word]),
     setup_call_cleanup(
         open(pipe(Command), read, Out),
         read_string(Out, "\n", "\r", _, Line),
-        close(Out)),
-    (   sub_string(Line, 4, 6, _, "------")
+        catch(close(Out), error(_, _), true)),
+    (   Line == ""
+    ->  unfit(File, 'it belongs to another user')
+    ;   sub_string(Line, 4, 6, _, "------")
     ->  true
     ;   format(atom(Why), 'others may use it: chmod 600 ~w', [File]),
         unfit(File, Why)
@@ -368,29 +370,7 @@ shell_word(Text, Word) :-
     atomic_list_concat(Parts, '\'\\\'\'', Inside),
     atomic_list_concat(['\'', Inside, '\''], Word).
 
-%   The file appears complete and private, or not at all: it is written in
-%   a closed directory and linked to its name, which fails for all but the
-%   first of the processes that try at once.
-
 make_cookie(File) :-
-    random_hex(8, Suffix),
-    atomic_list_concat([File, '.', Suffix], Directory),
-    setup_call_cleanup(
-        make_directory(Directory),
-        make_cookie_in(Directory, File),
-        delete_directory_and_contents(Directory)).
-
-make_cookie_in(Directory, File) :-
-    chmod(Directory, 0o700),
-    atom_concat(Directory, '/cookie', New),
     random_hex(32, Cookie),
-    setup_call_cleanup(
-        open(New, write, Out),
-        format(Out, "~w~n", [Cookie]),
-        close(Out)),
-    chmod(New, 0o600),
-    catch(link_file(New, File, hard), error(Formal, Context), true),
-    (   exists_file(File)
-    ->  true
-    ;   throw(error(Formal, Context))
-    ).
+    atom_concat(Cookie, '\n', Line),
+    private_new(File, Line).

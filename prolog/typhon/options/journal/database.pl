@@ -14,9 +14,11 @@
             journal_record_drop/1,      % +Where
             in_terms_of/3               % +Place, +Base, :Goal
           ]).
-:- use_module(library(filesex), [directory_file_path/3, make_directory_path/1]).
+:- use_module(library(filesex),
+              [chmod/2, directory_file_path/3, make_directory_path/1]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module('../../kernel/base/private', [private_write/2]).
 :- use_module(postgresql, [postgresql_place/4, postgresql_url/1]).
 :- use_module(sql, [sql_connect/2, sql_do/2, sql_row/4]).
 
@@ -139,8 +141,7 @@ database_found(sqlite(Dir)) :-
     exists_file(File).
 
 database_connect(sqlite(Dir), Seconds, Connection, Age) :-
-    catch(make_directory_path(Dir), error(Formal, _),
-          not_written(Dir, Formal)),
+    catch(folder_made(Dir), error(Formal, _), not_written(Dir, Formal)),
     file(Dir, File),
     (   exists_file(File)
     ->  Age = old
@@ -195,14 +196,22 @@ record(sqlite(Dir), Text) :-
 
 record_put(sqlite(Dir), Text) :-
     record_file(Dir, File),
-    atom_concat(File, '.new', New),
-    catch(( make_directory_path(Dir),
-            setup_call_cleanup(open(New, write, Out, [encoding(utf8)]),
-                               write(Out, Text),
-                               close(Out)),
-            rename_file(New, File) ),
+    catch(( folder_made(Dir),
+            private_write(File, write_text(Text)) ),
           error(Formal, _),
           not_written(Dir, Formal)).
+
+write_text(Text, File) :-
+    setup_call_cleanup(open(File, write, Out, [encoding(utf8)]),
+                       write(Out, Text),
+                       close(Out)).
+
+folder_made(Dir) :-
+    (   exists_directory(Dir)
+    ->  true
+    ;   make_directory_path(Dir),
+        chmod(Dir, 0o700)
+    ).
 
 not_written(Dir, Formal) :-
     format(atom(Why), 'it cannot be written: ~p', [Formal]),

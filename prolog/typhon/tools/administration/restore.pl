@@ -6,6 +6,7 @@
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../../kernel/base/options', [check_options/2]).
+:- use_module('../../kernel/base/private', [private_open/4]).
 :- use_module('../../kernel/base/text', [write_portable/3]).
 :- use_module('../../kernel/program',
               [ code_receive/2, code_extras/2, code_sent/2, code_unwrapped/3,
@@ -86,7 +87,7 @@ format_version(1).
 write_image(File, Image) :-
     with_output_to(string(Text), forall(line(Image, Line), write_line(Line))),
     setup_call_cleanup(
-        open(File, write, Out, [encoding(utf8)]),
+        private_open(File, write, Out, [encoding(utf8)]),
         write(Out, Text),
         close(Out)).
 

@@ -13,10 +13,11 @@
             on_console/1                % :Goal
           ]).
 :- use_module(library(apply), [maplist/3]).
-:- use_module(library(error), [existence_error/2, must_be/2]).
+:- use_module(library(error), [existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(filesex),
               [ delete_directory_and_contents/1, directory_file_path/3,
                 make_directory_path/1 ]).
+:- use_module('../../kernel/base/private', [private_folder/2, private_new/2]).
 
 /** <module> Texts that a browser sends, and messages printed for it
 
@@ -39,8 +40,8 @@ for each thread.
 %   Create the folder for texts; delete it with its files.
 
 editor_start :-
-    tmp_file(typhon_page, Folder),
-    make_directory_path(Folder),
+    tmp_file(typhon_page, Prefix),
+    private_folder(Prefix, Folder),
     assertz(folder(Folder)).
 
 editor_stop :-
@@ -74,13 +75,11 @@ text_file(Text, Name, File) :-
     variant_sha1(Text, Hash),
     directory_file_path(Folder, Hash, Own),
     directory_file_path(Own, Name, File),
-    (   exists_file(File)
+    make_directory_path(Own),
+    private_new(File, Text),
+    (   read_file_to_string(File, Text, [encoding(utf8)])
     ->  true
-    ;   make_directory_path(Own),
-        setup_call_cleanup(
-            open(File, write, Out, [encoding(utf8)]),
-            write(Out, Text),
-            close(Out))
+    ;   permission_error(create, program, File)     % another text is there
     ).
 
 %!  problem_dicts(+Messages, -Dicts) is det.
