@@ -94,8 +94,8 @@ written(Text, New) :-
 
 %!  private_open(+File, +Mode, -Stream, +Options) is det.
 %
-%   As open/4, for writing.  A file that exists becomes private; that fails if it
-%   belongs to another user.
+%   As open/4, for writing.  A file that exists becomes private; that fails if
+%   it belongs to another user.
 %
 %   @error as open/4
 

@@ -8,9 +8,10 @@
 :- use_module(library(apply), [maplist/3, partition/4]).
 :- use_module(library(error), [domain_error/2, existence_error/2, must_be/2]).
 :- use_module(library(lists),
-              [member/2, memberchk/2, nth1/3, selectchk/4]).
+              [last/2, member/2, memberchk/2, nth1/3, selectchk/4]).
 :- use_module(library(option), [option/2]).
 :- use_module(library(solution_sequences), [limit/2]).
+:- use_module('../../kernel/agent', [agent/5]).
 :- use_module('../../kernel/host', [address_parts/3]).
 :- use_module('../../kernel/lifecycle', [agent_join/3]).
 :- use_module('../../network', [network_property/2]).
@@ -23,7 +24,7 @@
                 scene_dict/3, text/2 ]).
 :- use_module(replay, [replay_of_text/3]).
 :- use_module(editor, [name_in/3, on_console/1, text_in/3]).
-:- use_module(sources, [sources_look/1, sources_tree/1]).
+:- use_module(sources, [sources_look/1, sources_show/1, sources_tree/1]).
 
 /** <module> Queries of browsers, and the answers
 
@@ -39,7 +40,7 @@
   | world      |         | the picture of the world, SVG                 |
   | replay     | `title`, `text` | the log of that text, see module `replay` |
 
-A query changes nothing.
+A query changes nothing, and leads only to hosts that the page shows.
 
 With the option world(Goal) the page has a view of the surroundings of the
 agents, such as a floor plan, or fields.  call(Goal, Svg) gives its present
@@ -74,9 +75,11 @@ answer(survey, _, Dict) :-
     present_scene(Dict).
 answer(agent, Message, Dict) :-
     name_in(agent, Message, Agent),
+    must_be_shown(agent, Agent),
     agent_dict(Agent, Dict).
 answer(host, Message, Dict) :-
     name_in(host, Message, Host),
+    must_be_shown(host, Host),
     host_dict(Host, Dict).
 answer(networks, _, Dicts) :-
     findall(Dict, network_dict(Dict), Dicts).
@@ -93,6 +96,24 @@ answer(replay, Message, Dict) :-
     text_in(title, Message, Title),
     text_in(text, Message, Text),
     replay_of_text(Title, Text, Dict).
+
+%   must_be_shown(+Kind, +Name): the address in Name, to which a query would
+%   connect, is that of a host on the page; else any viewer could let this
+%   process connect to any address.
+%
+%   @error existence_error(Kind, Name)
+
+must_be_shown(Kind, Name) :-
+    (   sub_atom(Name, _, _, _, @),
+        \+ agent(Name, _, _, _, _),
+        \+ ( last_part(Name, Endpoint), sources_show(Endpoint) )
+    ->  existence_error(Kind, Name)
+    ;   true
+    ).
+
+last_part(Name, Endpoint) :-
+    atomic_list_concat(Parts, @, Name),
+    last(Parts, Endpoint).
 
 %!  present_scene(-Dict) is det.
 %

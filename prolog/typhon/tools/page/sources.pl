@@ -2,6 +2,7 @@
           [ sources_start/1,            % +Options
             sources_stop/0,
             sources_look/1,             % -Scene
+            sources_show/1,             % +Endpoint
             sources_metrics/1,          % -Text
             sources_tree/1              % -Trees
           ]).
@@ -40,7 +41,8 @@ browser is connected, a thread searches for new hosts every few seconds.
     place/1,                    % Address: the search begins here, too
     finder/1,                   % Server
     page_watch/1,               % Watch
-    watched/2.                  % Address, Watch
+    watched/2,                  % Address, Watch
+    shown/1.                    % Endpoint: of the hosts found last
 
 %!  sources_start(+Options) is det.
 %!  sources_stop is det.
@@ -72,6 +74,7 @@ sources_stop :-
     ;   true
     ),
     end_watches_if(true),
+    retractall(shown(_)),
     (   retract(place(_))
     ->  runtime_release(page)
     ;   true
@@ -154,7 +157,33 @@ take_inventory(Most, Seen, Hosts) :-
     findall(Place, place(Place), Places),
     inventory(Most, Places, Seen, Silent),
     inventory_hosts(Places, Seen, Silent, Hosts),
-    times_of(Hosts).
+    times_of(Hosts),
+    findall(Endpoint, endpoint_of(Hosts, Endpoint), Endpoints0),
+    sort(Endpoints0, Endpoints),
+    with_mutex(typhon_page_sources, show(Endpoints)).
+
+endpoint_of(Hosts, Endpoint) :-
+    member(Host, Hosts),
+    arg(1, Host, Address),
+    address_parts(Address, _, Endpoint).
+
+show(Endpoints) :-
+    forall(( member(Endpoint, Endpoints), \+ shown(Endpoint) ),
+           assertz(shown(Endpoint))),
+    findall(Old, ( shown(Old), \+ memberchk(Old, Endpoints) ), Gone),
+    forall(member(Old, Gone), retractall(shown(Old))).
+
+%!  sources_show(+Endpoint) is semidet.
+%
+%   A host that the page shows is at Endpoint.  Queries of browsers may lead to
+%   no other address.
+
+sources_show(Endpoint) :-
+    shown(Endpoint),
+    !.
+sources_show(Endpoint) :-
+    take_inventory(0, _, _),
+    shown(Endpoint).
 
 unwatched(Hosts, Endpoint, Address) :-
     member(host(Address, running, _, _, _, _, _, _), Hosts),

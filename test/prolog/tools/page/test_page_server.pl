@@ -10,6 +10,7 @@
 :- use_module(library(plunit)).
 :- use_module(library(process),
               [process_create/3, process_kill/2, process_wait/2]).
+:- use_module(library(socket)).
 :- use_module(library(typhon)).
 
 hosts([alpha-[], beta-[]]).
@@ -58,6 +59,51 @@ status_without(Site, Status) :-
                   '00000000000000000000000000000000/']),
     atom_concat(Site, Path, Address),
     got(Address, [], Status).
+
+%   A listener counts the connections that queries of a viewer cause.
+
+test(queries_lead_to_no_other_address,
+     [forall(member(ReadOnly, [true,false])), true(Count-Shown == 0-2)]) :-
+    page([read_only(ReadOnly)], Base,
+         with_listener(Port, Count,
+             ( forall(elsewhere(Port, Message), fails(Base, Message, [])),
+               findall(x, ( member(Host, [alpha,beta]),
+                            host_property(Host, address(Address)),
+                            atom_string(Address, Text),
+                            answer(Base, _{ask:"host", host:Text}, _) ),
+                       Found),
+               length(Found, Shown) ))).
+
+elsewhere(Port, Message) :-
+    member(Kind-Key, ["host"-host, "agent"-agent]),
+    member(Name, [x, 'x.0@y', 'x.abc.0@y', 'a@b@c', '']),
+    member(Interface, ['127.0.0.1', localhost, '127.0.0.2']),
+    format(string(Text), '~w@~w:~w', [Name, Interface, Port]),
+    dict_pairs(Message, _, [ask-Kind,Key-Text]).
+
+:- meta_predicate with_listener(-, -, 0).
+
+with_listener(Port, Count, Goal) :-
+    setup_call_cleanup(
+        ( tcp_socket(Socket), tcp_bind(Socket, Port), tcp_listen(Socket, 50),
+          message_queue_create(Queue),
+          thread_create(count_connections(Socket, 0, Queue), Thread) ),
+        once(Goal),
+        ( thread_send_message(Queue, end),
+          tcp_connect(localhost:Port, Stream, []),
+          close(Stream),
+          thread_join(Thread, exited(Count)),
+          tcp_close_socket(Socket),
+          message_queue_destroy(Queue) )).
+
+count_connections(Socket, Count0, Queue) :-
+    tcp_accept(Socket, Client, _),
+    tcp_close_socket(Client),
+    (   thread_peek_message(Queue, end)
+    ->  thread_exit(Count0)
+    ;   Count is Count0+1,
+        count_connections(Socket, Count, Queue)
+    ).
 
 test(request_with_token, Statuses == [200, 200, 404, 404, 404, 404]) :-
     page(Base, findall(Status,
