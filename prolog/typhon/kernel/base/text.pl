@@ -318,8 +318,15 @@ breaks_lines(Format) :-
     sub_atom(Format, _, _, _, Break),
     !.
 
+%   The type of Arg matters to ~q.
+
 argument_shown(Arg, Shown) :-
-    ( atom(Arg) ; string(Arg) ),
+    atom(Arg),
+    !,
+    shown_text(Arg, Text),
+    ( atom_string(Arg, Text) -> Shown = Arg ; atom_string(Shown, Text) ).
+argument_shown(Arg, Shown) :-
+    string(Arg),
     !,
     shown_text(Arg, Shown).
 argument_shown(Arg, Arg).

@@ -117,6 +117,8 @@ test(letters_stay_readable, Text == "Zo\u00eb \u4e2d\u6587 \U0001F600 \u043c") :
     shown_text('Zo\u00eb \u4e2d\u6587 \U0001F600 \u043c', Text).
 test(escapes, Text == "a\\nb\\x1B\\[2J\\x202E\\") :-
     shown_text('a\nb\e[2J\u202e', Text).
+test(arguments_keep_their_type, Text == "a b 'B' \"s\"\n") :-
+    formatted('~w ~q ~q ~q~n', [a, b, 'B', "s"], Text).
 test(length_is_bounded, [forall(member(Char, [a,'\e'])), true(Length == 10 000)]) :-
     length(Chars, 100 000),
     maplist(=(Char), Chars),
