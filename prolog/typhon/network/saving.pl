@@ -5,7 +5,7 @@
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(error),
               [ existence_error/2, must_be/2, permission_error/3 ]).
-:- use_module(library(lists), [append/2, member/2, numlist/3]).
+:- use_module(library(lists), [append/2, append/3, member/2, numlist/3]).
 :- autoload(library(readutil), [read_file_to_string/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(sha), [hash_atom/2, sha_hash/3]).

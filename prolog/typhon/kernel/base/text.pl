@@ -2,7 +2,7 @@
           [ term_text/2,                % +Term, -Bytes
             text_term/2,                % +Bytes, -Term
             write_portable/3,           % +Out, +Term, +Options
-            print_clause/3              % +Out, +Clause, +Options,
+            print_clause/3,             % +Out, +Clause, +Options
             is_printable/1,             % +Text
             shown_text/2,               % +Text, -Shown
             shown_text/3,               % +Text, +Longest, -Shown

@@ -17,6 +17,7 @@
 :- use_module(library(filesex),
               [ delete_directory_and_contents/1, directory_file_path/3,
                 make_directory_path/1 ]).
+:- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module('../../kernel/base/private', [private_folder/2, private_new/2]).
 
 /** <module> Texts that a browser sends, and messages printed for it

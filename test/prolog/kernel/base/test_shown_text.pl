@@ -218,8 +218,8 @@ audited(Found, Dir) :-
     format(atom(Long), '~*c', [100 000, 0'a]),
     with_hosts([h-[audit(Audit), tokens([t])]],
                forall(( between(1, 30, _), random_name(Name) ),
-                      ( typhon_remote:security_event(h, refused(Name, Name)),
-                        typhon_remote:security_event(h, refused(Long, Name))
+                      ( typhon_rights:security_event(h, refused(Name, Name)),
+                        typhon_rights:security_event(h, refused(Long, Name))
                       ))),
     read_file_to_string(Audit, Text, [encoding(utf8)]),
     split_string(Text, "\n", "", Lines),
