@@ -169,6 +169,15 @@ tests_of([Type|Types], [Term|Terms], Tests) :-
 %   Each declaration, arrives/6 with a pattern of types, also makes a clause
 %   of accepts/5, which tests a term.
 
+%   Questions to an agent, and orders to a child, are declared in short.
+
+term_expansion(asked(Question, Right, Module), Clauses) :-
+    term_expansion(arrives(request, agent, question(Id:name, Question), Right,
+                           agent(Id), Module),
+                   Clauses).
+term_expansion(ordered(Order), Clauses) :-
+    term_expansion(arrives(order, node, Order, none, none, node_process),
+                   Clauses).
 term_expansion(arrives(Form, Kind, Pattern, Right, Scope, Module),
                [ arrives(Form, Kind, Pattern, Right, Scope, Module),
                  (accepts(Form, Kind, Term, Right, Scope) :- Body) ]) :-
@@ -206,44 +215,26 @@ arrives(request, hop, hop(_:term, _:term, _:term, _:term), gate, none,
         arrival).
 arrives(request, agent, create(_:term, _:term, _:term, _:term), gate, none,
         creation).
-arrives(request, agent, question(Id:name, properties), watch, agent(Id),
-        properties).
-arrives(request, agent, question(Id:name, mailbox), watch, agent(Id),
-        properties).
-arrives(request, agent, question(Id:name, program), watch, agent(Id),
-        properties).
-arrives(request, agent, question(Id:name, results(_:name)), watch, agent(Id),
-        join).
-arrives(request, agent, question(Id:name, trail), watch, agent(Id),
-        trail_verified).
-arrives(request, agent, question(Id:name, step), orders, agent(Id), stepping).
-arrives(request, agent, question(Id:name, dispose), orders, agent(Id),
-        disposal).
-arrives(request, agent, question(Id:name, force), orders, agent(Id), disposal).
-arrives(request, agent, question(Id:name, order(move(_:name))), orders,
-        agent(Id), orders).
-arrives(request, agent, question(Id:name, order(arrive(_:name))), orders,
-        agent(Id), orders).
-arrives(request, agent, question(Id:name, order(dispose)), orders, agent(Id),
-        orders).
-arrives(request, agent, question(Id:name, order(end)), orders, agent(Id),
-        orders).
-arrives(request, agent, question(Id:name, order(resume)), orders, agent(Id),
-        orders).
-arrives(request, agent, question(Id:name, order(clone)), orders, agent(Id),
-        orders).
-arrives(request, agent, question(Id:name, order(detach(_:name))), orders,
-        agent(Id), orders).
-arrives(request, agent, question(Id:name, order(attach(_:term))), orders,
-        agent(Id), orders).
-arrives(request, agent, question(Id:name, order(attach(_:term, _:term))),
-        orders, agent(Id), authors).
-arrives(request, agent, question(Id:name, order(change(_:term))), orders,
-        agent(Id), change).
-arrives(request, agent, question(Id:name, order(image)), orders, agent(Id),
-        restore).
-arrives(request, agent, question(Id:name, order(watched(_:term))), orders,
-        agent(Id), tracing).
+asked(properties, watch, properties).
+asked(mailbox, watch, properties).
+asked(program, watch, properties).
+asked(results(_:name), watch, join).
+asked(trail, watch, trail_verified).
+asked(step, orders, stepping).
+asked(dispose, orders, disposal).
+asked(force, orders, disposal).
+asked(order(move(_:name)), orders, orders).
+asked(order(arrive(_:name)), orders, orders).
+asked(order(dispose), orders, orders).
+asked(order(end), orders, orders).
+asked(order(resume), orders, orders).
+asked(order(clone), orders, orders).
+asked(order(detach(_:name)), orders, orders).
+asked(order(attach(_:term)), orders, orders).
+asked(order(attach(_:term, _:term)), orders, authors).
+asked(order(change(_:term)), orders, change).
+asked(order(image), orders, restore).
+asked(order(watched(_:term)), orders, tracing).
 
 %   Messages
 
@@ -357,24 +348,24 @@ arrives(post, channel, had(_:name, _:count), asked, none, channel).
 %   Orders to a child process of a network
 
 arrives(request, node, order(_:name, _:term), parent, none, node_process).
-arrives(order, node, alive, none, none, node_process).
-arrives(order, node, hosts(_:list(name-list(term))), none, none, node_process).
-arrives(order, node, again(_:list(name-list(term))), none, none, node_process).
-arrives(order, node, go_on, none, none, node_process).
-arrives(order, node, stop(_:list(name)), none, none, node_process).
-arrives(order, node, stop, none, none, node_process).
-arrives(order, node, flush(_:number, _:list(name)), none, none, node_process).
-arrives(order, node, link(_:list(half(name, name, term))), none, none, node_process).
-arrives(order, node, unlink(_:list(half(name, name, term))), none, none, node_process).
-arrives(order, node, places(_:list(name-term)), none, none, node_process).
-arrives(order, node, expect(_:list(name)), none, none, node_process).
-arrives(order, node, expect_no_more(_:list(name)), none, none, node_process).
-arrives(order, node, neighbours(_:list(name)), none, none, node_process).
-arrives(order, node, hold(_:number), none, none, node_process).
-arrives(order, node, let_go, none, none, node_process).
-arrives(order, node, rest(_:number, _:list(name)), none, none, node_process).
-arrives(order, node, kept(_:list(name)), none, none, node_process).
-arrives(order, node, fill(_:name, _:list(term)), none, none, node_process).
-arrives(order, node, goes_on(_:name, _:term, _:list(term)), none, none, node_process).
-arrives(order, node, agents, none, none, node_process).
-arrives(order, node, ended(_:name), none, none, node_process).
+ordered(alive).
+ordered(hosts(_:list(name-list(term)))).
+ordered(again(_:list(name-list(term)))).
+ordered(go_on).
+ordered(stop(_:list(name))).
+ordered(stop).
+ordered(flush(_:number, _:list(name))).
+ordered(link(_:list(half(name, name, term)))).
+ordered(unlink(_:list(half(name, name, term)))).
+ordered(places(_:list(name-term))).
+ordered(expect(_:list(name))).
+ordered(expect_no_more(_:list(name))).
+ordered(neighbours(_:list(name))).
+ordered(hold(_:number)).
+ordered(let_go).
+ordered(rest(_:number, _:list(name))).
+ordered(kept(_:list(name))).
+ordered(fill(_:name, _:list(term))).
+ordered(goes_on(_:name, _:term, _:list(term))).
+ordered(agents).
+ordered(ended(_:name)).
