@@ -106,37 +106,37 @@ seen(found, found).
     queue/1,                    % Queue
     message/2.                  % Queue, Message
 
-user:message_queue_create(Queue) :-
+system:message_queue_create(Queue) :-
     typhon_fifo:create(Queue).
-user:message_queue_create(Queue, _Options) :-
+system:message_queue_create(Queue, _Options) :-
     typhon_fifo:create(Queue).
-user:message_queue_destroy(Queue) :-
+system:message_queue_destroy(Queue) :-
     typhon_fifo:must_exist(Queue),
     retractall(typhon_fifo:queue(Queue)),
     retractall(typhon_fifo:message(Queue, _)).
-user:message_queue_property(Queue, size(Size)) :-
+system:message_queue_property(Queue, size(Size)) :-
     typhon_fifo:must_exist(Queue),
     aggregate_all(count, typhon_fifo:message(Queue, _), Size).
-user:thread_send_message(Queue, Message) :-
+system:thread_send_message(Queue, Message) :-
     typhon_fifo:must_exist(Queue),
     assertz(typhon_fifo:message(Queue, Message)).
-user:thread_peek_message(Queue, Message) :-
+system:thread_peek_message(Queue, Message) :-
     typhon_fifo:must_exist(Queue),
     typhon_fifo:message(Queue, Message),
     !.
-user:thread_get_message(Queue, Message) :-
-    (   user:thread_get_message(Queue, Message, [])
+system:thread_get_message(Queue, Message) :-
+    (   system:thread_get_message(Queue, Message, [])
     ->  true
     ;   throw(error(system_error(deadlock), _))
     ).
-user:thread_get_message(Queue, Message, _Options) :-
+system:thread_get_message(Queue, Message, _Options) :-
     typhon_fifo:must_exist(Queue),
     retract(typhon_fifo:message(Queue, Message)),
     !.
-user:mutex_create(Mutex) :-
+system:mutex_create(Mutex) :-
     gensym('typhon mutex ', Mutex).
-user:mutex_destroy(_).
-user:is_thread(main).
+system:mutex_destroy(_).
+system:is_thread(main).
 
 create(Queue) :-
     (   var(Queue)
