@@ -20,7 +20,8 @@ and by that of a stranger.
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/host), [address_parts/3]).
 :- use_module(library(typhon/kernel/wire),
-              [endpoint_call/5, endpoint_post/3, endpoint_request/4]).
+              [ endpoint_address/1, endpoint_call/5, endpoint_post/3,
+                endpoint_request/4 ]).
 
 :- begin_tests(arrivals).
 
@@ -32,6 +33,9 @@ test(peer_without_rights_changes_nothing) :-
     with_tmp_dir(by_cookie(unchanged)).
 test(first_rule_that_matches_applies) :-
     with_tmp_dir(by_cookie(first_rule)).
+test(child_of_a_network_obeys_its_parent_only,
+     Answers-Done == [not_permitted(parent), lost]-none) :-
+    no_leaks(child_attacked(Answers, Done)).
 
 :- end_tests(arrivals).
 
@@ -167,6 +171,36 @@ audited(File, Whats) :-
 waiting_agent(Agent) :-
     peer_do(p, agent_create(clauses([ (:- agent(x, [])),
                                       on_message(_, _) ]), Agent)).
+
+                /*******************************
+                *           CHILDREN           *
+                *******************************/
+
+%   A process that knows the cookie gives orders to the children of a network.
+
+child_attacked(Answers, Done) :-
+    with_peers([p-[host([])]],
+               setup_call_cleanup(
+                   network_start(ring(2), Network, [processes(2)]),
+                   attacked(Network, Answers, Done),
+                   network_stop(Network))).
+
+attacked(Network, [Guessed,Without], Done) :-
+    network_property(Network, hosts(Hosts)),
+    member(Host, Hosts),
+    address_parts(Host, Name, Child),
+    \+ endpoint_address(Child),
+    !,
+    Places = places([Name-leave(attacked)]),
+    node_answers(Child, order(guess, Places), Guessed),
+    node_answers(Child, Places, Without),
+    ( remote(Host, sense(attacked)) -> Done = attacked ; Done = none ).
+
+node_answers(Child, Term, Answer) :-
+    peer_do(p, catch(typhon_wire:endpoint_call(Child, node, Term,
+                                               answer(Answer), 20),
+                     error(connection_lost(_), _),
+                     Answer = lost)).
 
                 /*******************************
                 *          MALFORMED           *
