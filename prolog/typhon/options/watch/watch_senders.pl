@@ -1,4 +1,5 @@
 :- module(typhon_watch_senders, []).
+:- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
@@ -49,6 +50,9 @@ to each batch.
 :- setting(virtual_events, positive_integer, 1 000 000,
            "The same in virtual time, which runs ahead of all watches").
 
+:- setting(watches, positive_integer, 100,
+           "Watches that another process may have here").
+
 :- dynamic sender/5.            % Peer, Id, Thread, Signals,
                                 % watch(Wanted, Buffer)
 
@@ -60,10 +64,14 @@ kinds([life, faults, hops, messages, facts, said, links, hosts]).
 
 typhon_endpoint:requested(watch, watch(Id, Wanted), Peer, ReplyTo) :-
     with_mutex(typhon_watch_senders, sender_start(Peer, Id, Wanted, New)),
-    subscribe_hosts(New, Wanted, Peer, Id, Hosts),
-    endpoint_address(Own),
     !,
-    endpoint_reply(ReplyTo, watching(Own, New, Hosts)).
+    subscribe_hosts(New, Wanted, Peer, Id, Hosts),
+    (   endpoint_address(Own)
+    ->  endpoint_reply(ReplyTo, watching(Own, New, Hosts))
+    ;   true                            % the endpoint has stopped
+    ).
+typhon_endpoint:requested(watch, watch(_, _), _, ReplyTo) :-
+    endpoint_reply(ReplyTo, not_permitted(watch)).
 typhon_endpoint:requested(watch, unwatch(Id), Peer, ReplyTo) :-
     (   sender(Peer, Id, _, Signals, watch(_, Buffer))
     ->  events_unsubscribe(watch(Buffer, _, _)),
@@ -77,6 +85,7 @@ sender_start(Peer, Id, Wanted, New) :-
     assertz(sender(Peer, Id, Thread, Signals, watch(Wanted, Buffer))),
     New = false.
 sender_start(Peer, Id, Wanted, true) :-
+    has_space(Peer),
     message_queue_create(Signals),
     most(Most),
     buffer_open(Most, Signals, Buffer),
@@ -85,6 +94,14 @@ sender_start(Peer, Id, Wanted, true) :-
     thread_create(sender(Peer, Id, Signals, Buffer), Thread, [alias(Alias)]),
     assertz(sender(Peer, Id, Thread, Signals, watch(Wanted, Buffer))),
     debug(typhon(watch), '~w of ~w watches', [Id, Peer]).
+
+has_space(Peer) :-
+    endpoint_address(Peer),
+    !.
+has_space(Peer) :-
+    aggregate_all(count, sender(Peer, _, _, _, _), Count),
+    setting(watches, Most),
+    Count < Most.
 
 most(Most) :-
     time_kind(Kind),

@@ -470,6 +470,19 @@ senders(Peer, Count) :-
                           Count0)),
     Count = Count0.
 
+test(watches_of_another_process_are_bounded,
+     error(permission_error(watch, host, _))) :-
+    with_peer([], too_many).
+
+too_many(B) :-
+    peer_do(b, set_setting(typhon_watch_senders:watches, 2)),
+    setup_call_cleanup(
+        ( watch(B, ignored, First), watch(B, ignored, Second) ),
+        watch(B, ignored, _),
+        ( unwatch(First), unwatch(Second) )).
+
+ignored(_).
+
 test(dead_watcher_is_removed) :-
     with_peers([a, b], dies).
 
