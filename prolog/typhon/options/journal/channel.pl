@@ -1,4 +1,5 @@
 :- module(typhon_channel, []).
+:- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
@@ -67,6 +68,7 @@ acknowledges them.
 batch(100).
 longest_pause(1).               % seconds between attempts
 ack_seconds(0.02).
+addresses(16).                  % of this process, that a process may use
 
 typhon_durable_changes:durable_post(Endpoint, Kind, Term) :-
     changing_posts(
@@ -310,13 +312,27 @@ typhon_durable:go_on :-
 typhon_endpoint:received(channel,
                          channel(Process, To, Before, N, Kind, Term), Peer) :-
     endpoint_peer(Peer, process(Process)),
-    !,
     atomic_list_concat([Process, To], ' ', Key),
+    may_open(Process, Key),
+    !,
     with_mutex(typhon_channel_in,
                take_once(Key, Before, N, Kind, Term, Peer, How)),
     answer(How, Key, To, Peer).
 typhon_endpoint:received(channel, channel(Process, _, _, _, _, _), Peer) :-
-    debug(typhon(mail), '~w has sent a post of ~w', [Peer, Process]).
+    debug(typhon(mail), 'post of ~w from ~w is dropped', [Process, Peer]).
+
+%   may_open(+Process, +Key) is semidet: each address at which Process finds this
+%   process has a channel, and there are few.
+
+may_open(_, Key) :-
+    seen(Key, _),
+    !.
+may_open(Process, _) :-
+    atom_concat(Process, ' ', Begin),
+    aggregate_all(count, ( seen(Key, _), sub_atom(Key, 0, _, _, Begin) ),
+                  Count),
+    addresses(Most),
+    Count < Most.
 
 take_once(Key, _, N, _, _, _, known) :-
     seen(Key, Seen),

@@ -21,7 +21,7 @@ and by that of a stranger.
 :- use_module(library(typhon/kernel/host), [address_parts/3]).
 :- use_module(library(typhon/kernel/wire),
               [ endpoint_address/1, endpoint_call/5, endpoint_post/3,
-                endpoint_request/4 ]).
+                endpoint_process/1, endpoint_request/4 ]).
 
 :- begin_tests(arrivals).
 
@@ -36,6 +36,9 @@ test(first_rule_that_matches_applies) :-
 test(child_of_a_network_obeys_its_parent_only,
      Answers-Done == [not_permitted(parent), lost]-none) :-
     no_leaks(child_attacked(Answers, Done)).
+test(channels_are_of_the_process_that_posts_and_few,
+     Others-Own == 0-16) :-
+    no_leaks(channels(Others, Own)).
 
 :- end_tests(arrivals).
 
@@ -195,6 +198,37 @@ attacked(Network, [Guessed,Without], Done) :-
     node_answers(Child, order(guess, Places), Guessed),
     node_answers(Child, Places, Without),
     ( remote(Host, sense(attacked)) -> Done = attacked ; Done = none ).
+
+                /*******************************
+                *            CHANNELS          *
+                *******************************/
+
+%   Channels of a process that posts to forty addresses of this one, and in the
+%   name of another process.
+
+channels(Others, Own) :-
+    with_peers([p-[host([])]],
+               with_host_here([], channels_there(Others, Own))).
+
+channels_there(Others, Own) :-
+    endpoint_process(Process),
+    forall(between(1, 40, I),
+           ( posted(other, I), posted(Process, I) )),
+    wait_until(seen_of(Process, 16), 20),
+    posted(Process, 41),
+    seen_of(other, Others),
+    seen_of(Process, Own).
+
+posted(Process, I) :-
+    atom_concat(address, I, To),
+    sent(post, channel, channel(Process, To, first(-1), 0, bogus, x)).
+
+seen_of(Process, Count) :-
+    peer_do(p, aggregate_all(count,
+                             ( typhon_channel:seen(Key, _),
+                               sub_atom(Key, 0, _, _, Process) ),
+                             Count0)),
+    Count = Count0.
 
 node_answers(Child, Term, Answer) :-
     peer_do(p, catch(typhon_wire:endpoint_call(Child, node, Term,
