@@ -15,7 +15,8 @@ library(predicate_options), which takes as long as ten modules of this library.
 
 Modules of Typhon inherit from `system`, as those of SWI-Prolog's library do.
 The declaration of a module is expanded to that, and library(typhon) needs no
-directive in its files.  So no predicate, operator, expansion or flag of module `user` changes them.
+directive in its files.  So no predicate, operator, expansion or flag of module
+`user` changes them.
 
 *Threading*: any thread; the flags are those of the thread.
 */
@@ -55,31 +56,28 @@ flag(autoload, explicit) :-             % else what is declared is loaded now
                 *           MODULES            *
                 *******************************/
 
-:- dynamic root/1.                      % Directory of the distribution
+:- dynamic library/1.                   % Directory of typhon.pl
 
 :- module_property(typhon_compiling, file(File)),
-   atom_concat(Root, 'prolog/typhon/kernel/base/compiling.pl', File),
-   retractall(root(_)),
-   assertz(root(Root)).
+   atom_concat(Library, 'typhon/kernel/base/compiling.pl', File),
+   retractall(library(_)),
+   assertz(library(Library)).
 
 %   own_file(+File) is semidet: it belongs to Typhon, and is no program of an
-%   agent or a user in the same directory.
+%   agent or a user in the same directory.  In a distribution the folder of the
+%   library is `prolog`, and the others are beside it.
 
 own_file(File) :-
-    root(Root),
-    atom_concat(Root, Path, File),
-    own_folder(Folder),
-    sub_atom(Path, 0, _, _, Folder),
+    library(Library),
+    (   atom_concat(Library, Path, File),
+        member(Part, ['typhon/', 'typhon.pl', tartarus])
+    ;   atom_concat(Root, 'prolog/', Library),
+        atom_concat(Root, Path, File),
+        member(Part, [ 'agents/', 'app/', 'bench/', 'doc/', 'examples/',
+                       'experiments/', 'test/' ])
+    ),
+    sub_atom(Path, 0, _, _, Part),
     !.
-
-own_folder('prolog/').
-own_folder('agents/').
-own_folder('app/').
-own_folder('bench/').
-own_folder('doc/').
-own_folder('examples/').
-own_folder('experiments/').
-own_folder('test/').
 
 %   Files that load this module have been declared before it.
 
