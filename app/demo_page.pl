@@ -13,6 +13,7 @@ link to the page, and runs until Ctrl-C.
 and failures until it is stopped.
 */
 
+:- use_module('../prolog/typhon/kernel/base/monotonic', [wait_within/2]).
 :- use_module('../prolog/typhon',
               [ agent_property/2, network_property/2, network_start/3,
                 network_stop/1 ]).
@@ -105,7 +106,7 @@ print_link(Link) :-
 
 run_demo(N0, Agents0, Hosts) :-
     thread_self(Me),
-    (   thread_get_message(Me, stop, [timeout(1)])
+    (   wait_within(1, thread_get_message(Me, stop))
     ->  true
     ;   attack(Hosts),
         next(N0, Agents0, Hosts, N, Agents),

@@ -3,6 +3,7 @@
 %     swipl app/demo_ros.pl                       `make demo-ros`
 
 :- module(typhon_demo_ros, []).
+:- use_module('../prolog/typhon/kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../prolog/typhon').
 :- use_module('../prolog/typhon/bridges/helper', [helper_file/2]).
 :- use_module('../prolog/typhon/kernel/base/json', [atom_json_dict/3]).
@@ -82,7 +83,7 @@ demo :-
     findall(Parcel-Agent,
             ( parcel(Parcel, From, To), send_out(Parcel, From, To, Agent) ),
             Agents),
-    get_time(Start),
+    monotonic_time(Start),
     seconds(Seconds),
     Deadline is Start+Seconds,
     maplist(arrives(Start, Deadline), Agents),
@@ -109,10 +110,10 @@ send_out(Parcel, From, To, Agent) :-
     format("an agent looks for a robot for the ~w~n", [Parcel]).
 
 arrives(Start, Deadline, Parcel-Agent) :-
-    get_time(Now),
+    monotonic_time(Now),
     Left is max(0, Deadline-Now),
     agent_join(Agent, Outcome, Left),
-    get_time(End),
+    monotonic_time(End),
     Seconds is End-Start,
     format("the agent of the ~w: ~w after ~1f s~n",
            [Parcel, Outcome, Seconds]).

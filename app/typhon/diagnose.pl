@@ -19,6 +19,8 @@ has been printed if the network does not answer.
               [ tcp_close_socket/1, tcp_connect/2, tcp_host_to_address/2,
                 tcp_socket/1
               ]).
+:- use_module('../../prolog/typhon/kernel/base/monotonic',
+              [monotonic_time/1, wait_within/2]).
 :- use_module('../../prolog/typhon', [host_property/2]).
 :- use_module('../../prolog/typhon/kernel/base/error_text', [error_text/2]).
 :- use_module('../../prolog/typhon/kernel/base/text', [format_shown/2]).
@@ -126,10 +128,10 @@ check(Address, connection, 'a program listens there') :-
     address_parts(Address, _, Interface, Port),
     connect_within_deadline(Interface:Port).
 check(Address, authentication, Found) :-
-    get_time(Start),
+    monotonic_time(Start),
     catch(host_property(Address, state(_)),
           error(existence_error(host, _), _), true),  % the next step reports it
-    get_time(End),
+    monotonic_time(End),
     MilliSeconds is (End-Start)*1000,
     codec(Address, Codec),
     format(atom(Found), 'same cookie, codec ~w, answered in ~1f ms',
@@ -183,7 +185,7 @@ connect_within_deadline(Address) :-
     connect_deadline(Seconds),
     thread_self(Me),
     thread_create(try_connect(Address, Me), _, [detached(true)]),
-    (   thread_get_message(Me, connected(Result), [timeout(Seconds)])
+    (   wait_within(Seconds, thread_get_message(Me, connected(Result)))
     ->  true
     ;   Result = error(timeout_error(connect, Address), _)
     ),

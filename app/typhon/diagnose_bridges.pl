@@ -10,6 +10,7 @@ advice at the step that fails.
 *Threading*: the calling thread.
 */
 
+:- use_module('../../prolog/typhon/kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../../prolog/typhon',
               [ host_start/1, host_stop/1, mqtt_start/3, python_start/3,
                 remote/2, ros_start/3 ]).
@@ -115,9 +116,9 @@ check_ros('round trip', [_], Found) :-
 check_ros(_, [_], not_asked).
 
 ten_times(Goal, Found) :-
-    get_time(Start),
+    monotonic_time(Start),
     forall(between(1, 10, _), Goal),
-    get_time(End),
+    monotonic_time(End),
     MilliSeconds is (End-Start)*100,
     format(atom(Found), '~1f ms', [MilliSeconds]).
 

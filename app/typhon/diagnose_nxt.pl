@@ -12,6 +12,7 @@ brick, and stops with advice at the step that fails.  Nothing moves.
 
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [memberchk/2]).
+:- use_module('../../prolog/typhon/kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../../prolog/typhon/nxt').
 :- use_module('../../prolog/typhon/bridges/nxt/link', [nxt_python/2]).
 :- use_module(diagnose, [diagnose_steps/2, python_says/4]).
@@ -105,9 +106,9 @@ check(_, sensors, Found) :-
     maplist(sensor, [1,2,3,4], Texts),
     atomic_list_concat(Texts, ', ', Found).
 check(_, 'round trip', Found) :-
-    get_time(Start),
+    monotonic_time(Start),
     forall(between(1, 10, _), nxt_battery(diagnosed, _)),
-    get_time(End),
+    monotonic_time(End),
     MilliSeconds is (End-Start)*100,
     format(atom(Found), '~1f ms', [MilliSeconds]),
     (   MilliSeconds < 500

@@ -15,6 +15,7 @@ order/3 has one clause for each command, and fails if the answer is negative.
 :- use_module(library(apply), [exclude/3, maplist/2, maplist/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
+:- use_module('../../prolog/typhon/kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../../prolog/typhon',
               [ agent_check/1, agent_dispose/1, agent_join/3, agent_move/3,
                 agent_property/2, host_property/2, remote/2 ]).
@@ -190,7 +191,7 @@ means_gone(connection_lost(_)).
 :- meta_predicate within(+, 0).
 
 within(Seconds, Goal) :-
-    get_time(Now),
+    monotonic_time(Now),
     Deadline is Now+Seconds,
     try(Goal, Deadline).
 
@@ -198,7 +199,7 @@ try(Goal, _) :-
     call(Goal),
     !.
 try(Goal, Deadline) :-
-    get_time(Now),
+    monotonic_time(Now),
     Now < Deadline,
     sleep(0.05),
     try(Goal, Deadline).

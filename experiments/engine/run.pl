@@ -4,6 +4,7 @@
             run_again/4,                % +Study, +Case, +Seed, +File
             run_again/5                 % +Study, +Case, +Seed, +File, :Begin
           ]).
+:- use_module('../../prolog/typhon/kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../../prolog/typhon',
               [log_events/2, network_property/2, network_start/3,
                network_stop/1]).
@@ -36,12 +37,12 @@ exception in the caller ends the run, and the network is stopped.
 run_make(Study, Case, Seed, Directory) :-
     log_file(Directory, File),
     findall(Fact, environment(Fact), Environment),
-    get_time(T0),
+    monotonic_time(T0),
     statistics(process_cputime, C0),
     run_log(Study, Case, Seed, File, Log),
     view(Study, Log, View),
     measures(Study, View, Measures),
-    get_time(T1),
+    monotonic_time(T1),
     statistics(process_cputime, C1),
     Wall is T1 - T0,
     Cpu is C1 - C0,

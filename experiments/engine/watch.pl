@@ -3,6 +3,7 @@
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../../prolog/typhon/kernel/base/monotonic', [wait_within/2]).
 :- use_module(follow, [new_lines/4]).
 :- use_module(progress, [progress/4, progress_done/1]).
 
@@ -35,7 +36,7 @@ count_events(Log, What, Total, Position0, Count0) :-
     Shown is min(Count, Total),
     progress(user_error, Shown, Total, events),
     thread_self(Me),
-    (   thread_get_message(Me, stop, [timeout(0.2)])
+    (   wait_within(0.2, thread_get_message(Me, stop))
     ->  true
     ;   count_events(Log, What, Total, Position, Count)
     ).

@@ -9,6 +9,8 @@
               [process_create/3, process_kill/2, process_wait/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(solution_sequences), [distinct/2]).
+:- use_module('../../prolog/typhon/kernel/base/monotonic',
+              [monotonic_time/1, wait_within/2]).
 :- use_module(progress, [progress/4, progress_done/1]).
 :- use_module(store,
               [ left_parts_remove/2, log_file/2, part_directory/3, part_fail/4,
@@ -54,7 +56,7 @@ runs_make(Runs, Root, Options, Failed) :-
            left_parts_remove(Root, Study)),
     exclude(run_done(Root, Logs), Runs, Missing),
     length(Missing, Total),
-    get_time(Begin),
+    monotonic_time(Begin),
     retractall(failed_by(_)),
     catch(( make_missing(Missing, desk(Jobs, Root, Logs), Begin-Total),
             dismiss ),
@@ -132,7 +134,7 @@ time_left(Done, Total, _, '') :-
     ( Done =:= 0 ; Done =:= Total ),
     !.
 time_left(Done, Total, Begin, Text) :-
-    get_time(Now),
+    monotonic_time(Now),
     Left is round((Now - Begin) / Done * (Total - Done)),
     Hours is Left // 3600,
     Minutes is Left mod 3600 // 60,
@@ -237,7 +239,7 @@ end_workers :-
 
 kill_later :-
     thread_self(Me),
-    (   thread_get_message(Me, all_ended, [timeout(10)])
+    (   wait_within(10, thread_get_message(Me, all_ended))
     ->  true
     ;   signal_workers(kill),
         thread_get_message(all_ended)

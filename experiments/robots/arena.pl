@@ -4,6 +4,7 @@
             arena_stop/1,               % +Arena
             scene_file/2                % +Scene, -File
           ]).
+:- use_module('../../prolog/typhon/kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../../prolog/typhon/kernel/base/own_thread', [in_own_thread/1]).
 :- use_module('../../prolog/typhon/kernel/base/private', [private_folder/2]).
 :- use_module(library(apply), [maplist/3]).
@@ -145,7 +146,7 @@ arena_stop(arena(Pid, In, Out, Dir)) :-
 stop(Pid, In) :-
     catch(( format(In, 'quit~n', []), flush_output(In) ), error(_, _), true),
     catch(close(In, [force(true)]), error(_, _), true),
-    get_time(Now),
+    monotonic_time(Now),
     Deadline is Now + 20,       % the arena may write a long picture
     (   ended(Pid, Deadline)
     ->  true
@@ -157,7 +158,7 @@ ended(Pid, Deadline) :-
     process_wait(Pid, Status, [timeout(0)]),
     (   Status \== timeout
     ->  true
-    ;   get_time(Now),
+    ;   monotonic_time(Now),
         Now < Deadline,
         sleep(0.02),
         ended(Pid, Deadline)

@@ -7,6 +7,7 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../kernel/base/monotonic', [poll_within/2]).
 :- use_module('../kernel/base/error_text', [print_error/2]).
 :- use_module('../kernel/host', [alarm_set/3, scheduler_call/1]).
 :- use_module(dynamics, [dynamics_event/4]).
@@ -85,8 +86,7 @@ dynamics_kept(Dynamics, Seconds, Then) :-
     ).
 
 await_change(Dynamics, Seconds) :-
-    thread_wait(\+ changing(Dynamics, _),
-                [ timeout(Seconds), wait_preds([changing/2]) ]).
+    poll_within(Seconds, \+ changing(Dynamics, _)).
 
 %!  dynamics_again(+Name, +Then, +Clock, :OnChange, -Dynamics) is det.
 %

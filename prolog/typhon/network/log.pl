@@ -8,6 +8,7 @@
 :- use_module(library(error),
               [existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(option), [option/2, option/3]).
+:- use_module('../kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../kernel/base/durable_changes', [durable_closed/0]).
 :- use_module('../kernel/base/error_text', [error_lines/3, print_error/2]).
 :- use_module('../kernel/base/names', [must_be_name/2]).
@@ -232,7 +233,7 @@ write_event(open(Stream, Unsure0), File, Event, State) :-
     ;   State = State0
     ).
 write_event(lost(Count0, Again), _, _, lost(Count, Again)) :-
-    get_time(Now),
+    monotonic_time(Now),
     Now < Again,
     !,
     Count is Count0+1.
@@ -245,7 +246,7 @@ write_event(lost(Count0, _), _, _, lost(Count, Again)) :-
     next_try(Again).
 
 next_try(Again) :-
-    get_time(Now),
+    monotonic_time(Now),
     Again is Now+1.
 
 %   The rest of the buffer must not be written later, in the middle of a line.

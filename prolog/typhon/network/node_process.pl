@@ -297,8 +297,7 @@ watch_input :-
 ensure_end(Seconds) :-
     thread_get_message(stop),
     thread_send_message(main, stop),
-    thread_self(Me),
-    \+ thread_get_message(Me, never, [timeout(Seconds)]),
+    sleep(Seconds),
     current_prolog_flag(pid, Pid),
     process_kill(Pid, kill).
 

@@ -22,6 +22,8 @@
 :- use_module(library(error), [existence_error/2, permission_error/3]).
 :- use_module(library(lists), [member/2, selectchk/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../kernel/base/monotonic',
+              [ monotonic_time/1, poll_within/2, wait_before/2 ]).
 :- use_module('../kernel/base/error_text', [harmless_error/2]).
 :- use_module('../kernel/wire', [endpoint_address/1, endpoint_request/4]).
 :- use_module(children, [child_secret/1]).
@@ -111,8 +113,7 @@ node_gone(Network, P) :-
     !.
 
 nodes_gone(Network, Ps, Seconds) :-
-    thread_wait(forall(member(P, Ps), node_gone(Network, P)),
-                [ timeout(Seconds), wait_preds([down/3]) ]).
+    poll_within(Seconds, forall(member(P, Ps), node_gone(Network, P))).
 
                 /*******************************
                 *            ORDERS            *
@@ -236,7 +237,7 @@ answers(Ps, Queue, Deadline, Watch, Results) :-
     call(Watch, Ps),
     deadline(1, Soon),
     Slice is min(Soon, Deadline),
-    (   message_before(Queue, Answer, Slice)
+    (   wait_before(Slice, thread_get_message(Queue, Answer))
     ->  take(Answer, Ps, Rest, Results, Others)
     ;   Soon < Deadline
     ->  Rest = Ps,
@@ -256,14 +257,5 @@ prolog:error_message(existence_error(carrier, Network-P)) -->
 %!  deadline(+Seconds, -Deadline) is det.
 
 deadline(Seconds, Deadline) :-
-    get_time(Now),
+    monotonic_time(Now),
     Deadline is Now + Seconds.
-
-%   message_before(+Queue, ?Message, +Deadline) is semidet.
-%
-%   Take Message from Queue. Fails if none arrives before Deadline.
-
-message_before(Queue, Message, Deadline) :-
-    get_time(Now),
-    Wait is max(0, Deadline - Now),
-    thread_get_message(Queue, Message, [timeout(Wait)]).

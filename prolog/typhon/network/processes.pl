@@ -6,6 +6,7 @@
           ]).
 :- use_module(library(lists), [member/2, nth1/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../kernel/base/monotonic', [wait_within/2]).
 :- use_module('../kernel/base/names', [names_some/3]).
 :- use_module('../kernel/wire', [peer_expect/1, peer_expect_no_more/1]).
 :- use_module('../kernel/travel', [home_agents_at/2]).
@@ -104,7 +105,7 @@ nodes_start(Network, P, Machines, Interface, Options) :-
 
 alarm(Seconds, Queue) :-
     thread_self(Me),
-    (   thread_get_message(Me, done, [timeout(Seconds)])
+    (   wait_within(Seconds, thread_get_message(Me, done))
     ->  true
     ;   thread_send_message(Queue, late)
     ).

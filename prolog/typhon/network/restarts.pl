@@ -9,6 +9,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2, min_member/2, selectchk/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../kernel/base/monotonic', [monotonic_time/1, poll_within/2]).
 :- use_module('../kernel/base/error_text', [print_error/2]).
 :- use_module('../kernel/base/server',
               [server_cast/2, server_start/4, server_stop/1]).
@@ -180,7 +181,7 @@ not_starting(P, Starting0, Starting) :-
 %   often.
 
 may_restart(Network, P) :-
-    get_time(Now),
+    monotonic_time(Now),
     setting(restart_seconds, Seconds),
     setting(restarts, Most),
     Since is Now-Seconds,
@@ -245,8 +246,7 @@ restarts_absent(Network, P) :-
 
 restarts_back(Network) :-
     setting(typhon_processes:order_seconds, Seconds),
-    ignore(thread_wait(\+ absent(Network, _),
-                       [ timeout(Seconds), wait_preds([absent/2]) ])).
+    ignore(poll_within(Seconds, \+ absent(Network, _))).
 
 prolog:message(typhon(node_given_up(Network, P, Most, Seconds))) -->
     [ 'Process ~w of ~w is not started again: it has died ~D times within \c

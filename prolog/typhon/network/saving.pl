@@ -10,6 +10,7 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(sha), [hash_atom/2, sha_hash/3]).
 :- use_module('../kernel/base/private', [private_write/2]).
+:- use_module('../kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../kernel/base/text', [term_text/2, text_term/2]).
 :- use_module('../kernel/host',
               [context_now/2, time_due/3, time_kind/1, time_now/1]).
@@ -101,7 +102,7 @@ runs_here(Network) :-
 
 collect_state(Network, Ps, State, Terms) :-
     setting(hold_seconds, Seconds),
-    get_time(Now),
+    monotonic_time(Now),
     Deadline is Now+Seconds,
     hold(Network, Ps, Deadline),
     about(Network, State, Deadline, About),
@@ -166,7 +167,7 @@ answers(Network, Ps, Order, Deadline, Answers) :-
     nodes_order(Network, Ps, Order, Seconds, Answers).
 
 seconds_to(Deadline, Seconds) :-
-    get_time(Now),
+    monotonic_time(Now),
     Seconds is max(0.1, Deadline-Now).
 
                 /*******************************

@@ -1,6 +1,7 @@
 :- module(typhon_single, []).
 :- use_module(library(apply), [include/3]).
 :- use_module(library(lists), [min_list/2]).
+:- use_module('../kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../kernel/base/fifo', [fifo_empty/2]).
 :- use_module('../kernel/host',
               [ alarm_add/3, alarm_stamp/3, alarms_begin/0, alarms_end/0,
@@ -96,7 +97,7 @@ run_until_message(Queue, Stamp, Index0) :-
     ->  true
     ;   index_update(Index0, Index1),
         index_first(Index1, First),
-        get_time(Now),
+        monotonic_time(Now),
         next(Now, First, Stamp, Next),
         proceed(Next, Index1, Index),
         run_until_message(Queue, Stamp, Index)

@@ -8,6 +8,7 @@
 :- use_module(library(error), [domain_error/2, permission_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(ordsets), [ord_subtract/3]).
+:- use_module('../kernel/base/monotonic', [poll_within/2]).
 :- use_module('../kernel/base/durable',
               [ durable/6, durable_dump/4, durable_kinds/2,
                 durable_restore/4 ]).
@@ -233,28 +234,19 @@ process_go_on(_, Agents, _) :-
 %   queued for the endpoints Peers.  Fails if that takes longer than Seconds.
 
 agents_at_rest(Seconds, Peers) :-
-    get_time(Now),
-    Deadline is Now+Seconds,
     agents_passed,
-    wait_for_rest(Deadline, Peers).
+    poll_within(Seconds, at_rest(Peers)).
 
 %   Polling every 10 ms costs less than a notification, for which each turn and
 %   each departure would have to check for a waiting caller.
 
-wait_for_rest(Deadline, Peers) :-
+at_rest(Peers) :-
     forall(( agent_status(Id, running, _), \+ agent_ordered(Id) ),
            ignore(with_agent(Id, order_rest(Id)))),
     news_hurry,
-    (   \+ is_busy(Peers),
-        agents_passed,                  % a message may have followed an agent
-        \+ is_busy(Peers)
-    ->  true
-    ;   get_time(Now),
-        Now < Deadline,
-        thread_self(Me),
-        \+ thread_get_message(Me, '$typhon_never', [timeout(0.01)]),
-        wait_for_rest(Deadline, Peers)
-    ).
+    \+ is_busy(Peers),
+    agents_passed,                      % a message may have followed an agent
+    \+ is_busy(Peers).
 
 %   An order without effect stops a running agent.
 

@@ -1,6 +1,7 @@
 :- module(typhon_virtual, []).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../kernel/base/monotonic', [wait_within/2]).
 :- use_module('../kernel/base/own_thread', [stop_thread/1]).
 :- use_module('../kernel/host', [agent_parked/1]).
 :- use_module(virtual/virtual_loop,
@@ -123,13 +124,13 @@ signal(Goal) :-
 typhon_time:hold(virtual, Seconds) :-
     (   own_thread
     ->  true
-    ;   ask_loop(ask(hold(Reply)), Reply, [timeout(Seconds)], held)
+    ;   ask_loop(ask(hold(Reply)), Reply, Seconds, held)
     ).
 
 typhon_time:state(virtual, State) :-
     (   own_thread
     ->  virtual_state(State)
-    ;   ask_loop(held(state(Reply)), Reply, [], State)
+    ;   ask_loop(held(state(Reply)), Reply, inf, State)
     ).
 
 typhon_time:let_go(virtual, []) :-
@@ -143,7 +144,7 @@ own_thread :-
     thread_self(Thread).
 
 typhon_time:again(virtual, State, Agents) :-
-    ask_loop(ask(restore(State, Reply)), Reply, [], done),
+    ask_loop(ask(restore(State, Reply)), Reply, inf, done),
     findall(Agent, has_turn(State, Agent), Agents).
 
 has_turn(virtual(_, _, _, _, Messages), Agent) :-
@@ -152,12 +153,12 @@ has_turn(virtual(_, _, _, _, Messages), Agent) :-
 has_turn(_, Agent) :-
     agent_parked(Agent).
 
-ask_loop(Request, Reply, Options, Answer) :-
+ask_loop(Request, Reply, Seconds, Answer) :-
     loop(_, Loop),
     setup_call_cleanup(
         message_queue_create(Reply),
         ( thread_send_message(Loop, Request),
-          thread_get_message(Reply, Answer, Options)
+          wait_within(Seconds, thread_get_message(Reply, Answer))
         ),
         message_queue_destroy(Reply)).
 
@@ -199,7 +200,7 @@ has_messages(Queue) :-
 answer(Reply, Answer) :-
     setting(patience, Seconds),
     progress(Progress),
-    (   thread_get_message(Reply, Answer0, [timeout(Seconds)])
+    (   wait_within(Seconds, thread_get_message(Reply, Answer0))
     ->  Answer = Answer0
     ;   report_no_progress(Progress),
         answer(Reply, Answer)

@@ -7,6 +7,7 @@
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2]).
+:- use_module('../kernel/base/monotonic', [wait_within/2]).
 :- use_module('../kernel/base/own_thread', [in_own_thread/1, stop_thread/1]).
 :- use_module('../kernel/wire', [endpoint_request/4]).
 :- use_module('../kernel/host',
@@ -176,7 +177,7 @@ end_from_outside(Watch, Thread) :-
     setup_call_cleanup(
         message_queue_create(Done),
         ( receiver_put(Watch, end(Done)),
-          ignore(thread_get_message(Done, done, [timeout(Seconds)]))
+          ignore(wait_within(Seconds, thread_get_message(Done, done)))
         ),
         message_queue_destroy(Done)),
     receiver_close(Watch),

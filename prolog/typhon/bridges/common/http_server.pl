@@ -19,6 +19,7 @@
               [ tcp_accept/3, tcp_bind/2, tcp_close_socket/1,
                 tcp_listen/2, tcp_open_socket/2, tcp_open_socket/3,
                 tcp_setopt/2, tcp_socket/1 ]).
+:- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../../kernel/base/error_text', [is_abort/1]).
 :- use_module('../../kernel/base/options', [blaming/2]).
 :- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
@@ -143,7 +144,7 @@ close_streams(In, Out) :-
 
 serve(Server, Ip, Serve, In, Out) :-
     thread_self(Me),
-    get_time(Now),
+    monotonic_time(Now),
     assertz(client(Server, Me, Ip, Now, reading)),
     catch(ignore(call(Serve, In, Out)), error(Formal, _),
           debug(typhon(clients), '~w: a client goes: ~p', [Server, Formal])).
@@ -171,7 +172,7 @@ becomes(State) :-
     thread_self(Me),
     retract(client(Server, Me, Ip, _, _)),
     !,
-    get_time(Now),
+    monotonic_time(Now),
     assertz(client(Server, Me, Ip, Now, State)).
 
 %   has_slot(+Server, +Most): fails if no client can be displaced.
@@ -216,7 +217,7 @@ end_if_displaced :-
 %!  http_deadline(+Seconds, -Deadline) is det.
 
 http_deadline(Seconds, Deadline) :-
-    get_time(Now),
+    monotonic_time(Now),
     Deadline is Now+Seconds.
 
 %!  http_before(+Deadline, +In) is det.
@@ -229,7 +230,7 @@ http_deadline(Seconds, Deadline) :-
 http_before(none, _) :-
     !.
 http_before(Deadline, In) :-
-    get_time(Now),
+    monotonic_time(Now),
     Left is Deadline-Now,
     (   Left > 0
     ->  set_stream(In, timeout(Left))

@@ -17,6 +17,7 @@
 :- use_module(library(option), [option/3]).
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../../kernel/base/options', [check_options/2]).
 :- use_module('../../kernel/host',
               [ context_agent/1, context_now/2, events_subscribe/3,
@@ -88,7 +89,7 @@ subscribe(Service, Host, Key, Agent, Options) :-
                                     Key)) )).
 
 how(Options, Agent, how(As, Max, Since)) :-
-    get_time(Since),
+    monotonic_time(Since),
     setting(queue, Default),
     option(queue(Max), Options, Default),
     option(as(As), Options, message),

@@ -9,6 +9,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2]).
 :- use_module(library(socket), [tcp_connect/3]).
+:- use_module('../../kernel/base/monotonic', [wait_within/2]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../common', [crew_end/1, crew_start/4]).
 :- use_module(http, [http_post/4, http_response/3, http_url/3, within/2]).
@@ -119,7 +120,7 @@ gone(Host, Address, Queue) :-
 
 carrier_loop(Host, Address, Queue, Limits, Way) :-
     idle_seconds(Idle),
-    (   thread_get_message(Queue, send(Urls, Letter), [timeout(Idle)])
+    (   wait_within(Idle, thread_get_message(Queue, send(Urls, Letter)))
     ->  sent(Urls, Host, Letter, Limits, Way),
         carrier_loop(Host, Address, Queue, Limits, Way)
     ;   with_mutex(typhon_fipa_carriage, idle(Host, Address, Queue))

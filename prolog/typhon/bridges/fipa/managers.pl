@@ -8,6 +8,7 @@
 :- use_module(library(pairs), [group_pairs_by_key/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(solution_sequences), [limit/2]).
+:- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../../kernel/host', [host/3]).
 :- use_module('../../kernel/agent', [agent/5]).
 :- use_module('../../kernel/travel', [home_agents/1]).
@@ -189,8 +190,10 @@ enter(Manager, Host, Name, Description) :-
 
 until(Description, Until) :-
     compound_name_arguments(Description, _, Parameters),
-    (   memberchk('lease-time':date(Stamp), Parameters)
-    ->  Until = Stamp
+    (   memberchk('lease-time':date(Date), Parameters)
+    ->  get_time(Wall),
+        monotonic_time(Now),
+        Until is Now+Date-Wall
     ;   Until = inf
     ).
 
@@ -273,7 +276,7 @@ text(Term, Text) :-
 
 %   directory_add(+Directory, +Name, +Description, +Until) is det.
 %
-%   Replace the description of Name.  Until is a time stamp, or `inf`.
+%   Replace the description of Name.  Until is a monotonic time, or `inf`.
 %
 %   @error resource_error(fipa_directory)
 
@@ -292,7 +295,7 @@ has_space :-
     setting(entries, Max),
     (   predicate_property(entry(_, _, _, _), number_of_clauses(Count)),
         Count >= Max
-    ->  get_time(Now),
+    ->  monotonic_time(Now),
         findall(Ref,
                 ( clause(entry(_, _, _, Until), true, Ref),
                   over(Until, Now) ),
@@ -314,13 +317,13 @@ directory_remove(Directory, Name) :-
                  retract(entry(Directory, Name, _, _)) )).
 
 directory_has(Directory, Name) :-
-    get_time(Now),
+    monotonic_time(Now),
     entry(Directory, Name, _, Until),
     \+ over(Until, Now),
     !.
 
 directory_entry(Directory, Description) :-
-    get_time(Now),
+    monotonic_time(Now),
     entry(Directory, _, Description, Until),
     \+ over(Until, Now).
 

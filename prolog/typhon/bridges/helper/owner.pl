@@ -10,6 +10,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [instantiation_error/1, type_error/2]).
 :- use_module(library(pairs), [pairs_values/2]).
+:- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../../kernel/base/json', [json_text/2]).
 :- use_module('../../kernel/base/server', [server_answer/2, server_self/1]).
 :- use_module(process,
@@ -110,7 +111,7 @@ when_asked(State0, _, State) =>
     State = State0.
 
 begin(owner(Name, Command, When, Role, _), Wait, State) :-
-    get_time(Now),
+    monotonic_time(Now),
     server_self(Owner),
     catch(( process_begin(Command, Owner, Role, said(Name, Owner), Process),
             State = up(Process, Now, Wait) ),
@@ -120,7 +121,7 @@ begin(owner(Name, Command, When, Role, _), Wait, State) :-
 
 down(asked, _, Answer, down(asked, 0, Answer)).
 down(always, Wait0, Answer, down(Time, Wait, Answer)) :-
-    get_time(Now),
+    monotonic_time(Now),
     Time is Now+Wait0,
     Wait is min(10, 2*Wait0).
 
@@ -166,7 +167,7 @@ again_when(asked, _, _, 0) :-
 again_when(always, _, 0, now) :-
     !.
 again_when(always, Since, Wait, Wait1) :-
-    get_time(Now),
+    monotonic_time(Now),
     soon(Soon),
     (   Now-Since > Soon
     ->  Wait1 = now

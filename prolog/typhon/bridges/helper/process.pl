@@ -14,6 +14,7 @@
 :- use_module(library(process), [process_kill/2, process_wait/3]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/base/json', [json_dict/2]).
 :- use_module('../../kernel/base/server', [server_cast/2]).
@@ -128,7 +129,7 @@ follow(Owner, Pid, Out, Heard) :-
     catch(lines(Out, Heard), error(Formal, _),
           debug(typhon(helper), 'reading from a helper: ~p', [Formal])),
     close(Out, [force(true)]),
-    get_time(Now),
+    monotonic_time(Now),
     end_seconds(Seconds),
     Deadline is Now+Seconds,
     wait(Owner, Pid, Deadline, Status),
@@ -158,7 +159,7 @@ wait(Owner, Pid, _, Status) :-
     with_mutex(typhon_helper_pid, ended(Owner, Pid, Status)),
     !.
 wait(Owner, Pid, Deadline, Status) :-
-    get_time(Now),
+    monotonic_time(Now),
     (   Now > Deadline
     ->  kill(Pid)
     ;   true

@@ -11,6 +11,7 @@
 :- use_module(library(uri),
               [ uri_authority_components/2, uri_authority_data/3,
                 uri_components/2, uri_data/3, uri_encoded/3 ]).
+:- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../helper', [json_value/1]).
 :- use_module('../common',
               [ subscribers_drop/4, subscribers_notify/5,
@@ -71,7 +72,7 @@ handle_event("down", Host, _) :-
     connection_gone(Host),
     print_message(warning, typhon(mqtt_down(Host))).
 handle_event("up", Host, Dict) :-
-    get_time(Now),
+    monotonic_time(Now),
     (   get_dict(again, Dict, true)
     ->  Since = Now
     ;   Since = 0
@@ -96,7 +97,7 @@ notify(Retain, Host, Filter0, Kind0, Message, Same) :-
 reconnected(Host) :-
     up(Host, Since),
     missed_seconds(Seconds),
-    get_time(Now),
+    monotonic_time(Now),
     Now-Since < Seconds.
 
                 /*******************************

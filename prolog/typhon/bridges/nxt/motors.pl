@@ -17,6 +17,7 @@
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
+:- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../../kernel/base/options', [check_options/2]).
 :- use_module(brick, [nxt_command/4]).
 
@@ -158,14 +159,14 @@ nxt_turn_to(Brick, Motor, Power, Angle, Seconds) :-
     must_be(between(1, 100), Power),
     must_be(integer, Angle),
     must_be(between(0.0, 36000), Seconds),
-    get_time(Now),
+    monotonic_time(Now),
     Deadline is Now+Seconds,
     turn_until_near(Brick, Motor, Power, Angle, Deadline).
 
 turn_until_near(Brick, Motor, Power, Angle, Deadline) :-
     nxt_tacho(Brick, Motor, Now),
     Error is Angle-Now,
-    get_time(Time),
+    monotonic_time(Time),
     (   abs(Error) =< 2
     ->  nxt_stop(Brick, Motor),
         await(turn_to, Brick, Deadline, Motor),
@@ -278,7 +279,7 @@ nxt_moves(Brick, Motor) :-
 
 nxt_await(Brick, Motors, Seconds) :-
     must_be(between(0.0, 36000), Seconds),
-    get_time(Now),
+    monotonic_time(Now),
     Deadline is Now+Seconds,
     (   Motors == all
     ->  List = [a,b,c]
@@ -291,7 +292,7 @@ nxt_await(Brick, Motors, Seconds) :-
 await(What, Brick, Deadline, Motor) :-
     (   \+ nxt_moves(Brick, Motor)
     ->  true
-    ;   get_time(Now),
+    ;   monotonic_time(Now),
         Now > Deadline
     ->  time_out(What, Brick, Motor)
     ;   sleep(0.02),

@@ -15,6 +15,7 @@
 :- use_module(library(error), [existence_error/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
+:- use_module('../../kernel/base/monotonic', [wait_within/2]).
 :- use_module('../helper',
               [ helper_call/5, helper_close/1, helper_file/2, helper_note/2,
                 helper_open/3, helper_pid/2 ]).
@@ -168,7 +169,7 @@ way_await(Host, Id, Op, Seconds, Answer) :-
           message_queue_destroy(Queue) )).
 
 wait(Queue, Seconds, Answer) :-
-    (   thread_get_message(Queue, answer(Answer0), [timeout(Seconds)])
+    (   wait_within(Seconds, thread_get_message(Queue, answer(Answer0)))
     ->  Answer = Answer0
     ;   Answer = timeout
     ).

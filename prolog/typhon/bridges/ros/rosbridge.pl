@@ -10,6 +10,10 @@
 :- use_module(library(http/websocket), [http_open_websocket/3, ws_send/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../../kernel/base/monotonic',
+              [ monotonic_time/1, poll_within/2, wait_within/2 ]).
+:- use_module('../../kernel/base/monotonic',
+              [ monotonic_time/1, poll_within/2, wait_within/2 ]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/base/json', [json_text/2]).
 :- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
@@ -78,7 +82,7 @@ first_attempt(Link, Seconds, Result) :-
                         typhon_ros_stop, true),
                   Reader, [alias(Alias)]),
     assertz(reader(Host, Reader)),
-    (   thread_get_message(Queue, attempt(Result0), [timeout(Seconds)])
+    (   wait_within(Seconds, thread_get_message(Queue, attempt(Result0)))
     ->  Result = Result0
     ;   Result = error(timeout_error(connect, URL), _)
     ).
@@ -111,7 +115,7 @@ rosbridge_send(Host, Frame, Seconds) :-
     ).
 
 pass(Writer, Message, Seconds) :-
-    (   thread_send_message(Writer, Message, [timeout(Seconds)])
+    (   wait_within(Seconds, thread_send_message(Writer, Message))
     ->  true
     ;   resource_error(ros_queue)
     ).
@@ -140,7 +144,7 @@ close_down(Host, Reader) :-
           error(existence_error(_, _), _), true),
     (   send_close(Host),
         bye_seconds(Seconds),
-        thread_get_message(Me, stopped(Reader), [timeout(Seconds)])
+        wait_within(Seconds, thread_get_message(Me, stopped(Reader)))
     ->  true
     ;   ignore(interrupt(Reader))
     ),
@@ -160,10 +164,8 @@ close_all :-
               unregister_reader(Host, Reader),
               order_stop(Host, Reader) ),
             Readers),
-    get_time(Now),
     bye_seconds(Seconds),
-    Deadline is Now+Seconds,
-    await_ends(Readers, Deadline).
+    ignore(poll_within(Seconds, \+ any_runs(Readers))).
 
 order_stop(Host, Reader) :-
     thread_self(Me),
@@ -175,16 +177,11 @@ order_stop(Host, Reader) :-
     ;   interrupt(Reader)
     ).
 
-await_ends(Readers, Deadline) :-
-    (   member(Reader, Readers),
-        catch(thread_property(Reader, status(running)),
-              error(existence_error(_, _), _), fail),
-        get_time(Now),
-        Now < Deadline
-    ->  sleep(0.01),
-        await_ends(Readers, Deadline)
-    ;   true
-    ).
+any_runs(Readers) :-
+    member(Reader, Readers),
+    catch(thread_property(Reader, status(running)),
+          error(existence_error(_, _), _), fail),
+    !.
 
 send_close(Host) :-
     writer(Host, Writer),
@@ -203,7 +200,7 @@ connect(Link, Wait) :-
     Link = link(Host, URL, Silence, Asker),
     catch(socket_open(URL, Silence, Socket), error(Formal, Context), true),
     (   nonvar(Socket)
-    ->  get_time(Start),
+    ->  monotonic_time(Start),
         catch(serve_connection(Link, Socket), error(Kind, Where),
               print_error(error, error(Kind, Where))),
         pause_after(Start, Wait, Pause)
@@ -217,7 +214,7 @@ connect(Link, Wait) :-
 %   server that closes connections at once gets the longer pause.
 
 pause_after(Start, Wait, Pause) :-
-    get_time(Now),
+    monotonic_time(Now),
     soon(Soon),
     (   Now-Start > Soon
     ->  first_wait(Pause)
@@ -226,7 +223,7 @@ pause_after(Start, Wait, Pause) :-
 
 pause(Link, Pause) :-
     thread_self(Me),
-    (   thread_get_message(Me, stop(Caller), [timeout(Pause)])
+    (   wait_within(Pause, thread_get_message(Me, stop(Caller)))
     ->  thread_send_message(Caller, stopped(Me))
     ;   longest_wait(Longest),
         Longer is min(Longest, 2*Pause),
@@ -315,7 +312,7 @@ writer_run(Socket, Every, Reader) :-
 
 write_loop(Socket, Every) :-
     thread_self(Me),
-    (   thread_get_message(Me, Message, [timeout(Every)])
+    (   wait_within(Every, thread_get_message(Me, Message))
     ->  true
     ;   Message = ping('')              % the server answers it
     ),
@@ -337,7 +334,7 @@ writer_end(Writer) :-
 
 writer_stop(Writer, Me) :-
     interrupt(Writer),
-    \+ thread_get_message(Me, written(Writer), [timeout(0.1)]),
+    \+ wait_within(0.1, thread_get_message(Me, written(Writer))),
     !,
     writer_stop(Writer, Me).
 writer_stop(_, _).

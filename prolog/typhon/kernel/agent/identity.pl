@@ -13,6 +13,7 @@
           ]).
 :- use_module(library(error), [representation_error/1]).
 :- use_module(library(lists), [append/3]).
+:- use_module('../base/monotonic', [monotonic_time/1]).
 :- use_module('../base/durable', [durable/6]).
 :- use_module('../base/durable_changes', [durable_key/2, durable_on/0]).
 :- use_module('../wire', [endpoint_address/1]).
@@ -89,7 +90,7 @@ make_mark :-
     !.
 make_mark :-
     X is random(1<<40),
-    get_time(Now),
+    monotonic_time(Now),
     Y is X xor truncate(Now*1000000) /\ (1<<40-1),
     ( mark_suffix(Suffix) -> true ; Suffix = '' ),
     format(atom(Mark), '~36r~w.', [Y, Suffix]),

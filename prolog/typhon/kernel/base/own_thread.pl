@@ -142,8 +142,7 @@ stop_thread(0, Thread) :-
     print_message(warning, typhon(stuck_worker(Thread))),
     thread_detach(Thread).
 stop_thread(Tries, Thread) :-
-    thread_self(Me),
-    \+ thread_get_message(Me, '$typhon_never', [timeout(0.002)]),
+    sleep(0.002),
     interrupt(Tries, Thread),
     Tries1 is Tries-1,
     stop_thread(Tries1, Thread).

@@ -10,6 +10,7 @@
             server_stop/1,              % +Server
             server_leave/1              % +Server
           ]).
+:- use_module(monotonic, [wait_before/2, wait_within/2]).
 :- use_module(error_text, [error_lines/3, is_abort/1]).
 
 /** <module> Servers: threads that own a queue
@@ -159,7 +160,7 @@ server_call(Queue, Request, Seconds, Answer) :-
     setup_call_cleanup(
         message_queue_create(Caller),
         ( send_call(Queue, call(Request, Caller)),
-          await_result(Seconds, Caller, Result)
+          wait_within(Seconds, thread_get_message(Caller, Result))
         ),
         message_queue_destroy(Caller)),
     (   Result = raised(Ball)
@@ -172,12 +173,6 @@ send_call(Queue, Call) :-
     ->  true
     ;   throw(error(existence_error(server, Queue), _))
     ).
-
-await_result(inf, Caller, Result) :-
-    !,
-    thread_get_message(Caller, Result).
-await_result(Seconds, Caller, Result) :-
-    thread_get_message(Caller, Result, [timeout(Seconds)]).
 
 %!  server_answer(+Caller, +Answer) is det.
 %
@@ -275,15 +270,8 @@ serve_next(Next, Handle, Queue, End) :-
 ending('$stop').
 ending('$leave').
 
-%   A wait is not longer than a day: the system may not support very late times.
-
-next(inf, Queue, Message) :-
-    !,
-    thread_get_message(Queue, Message).
 next(Stamp, Queue, Message) :-
-    get_time(Now),
-    Deadline is min(Stamp, Now+86400),
-    (   thread_get_message(Queue, Message0, [deadline(Deadline)])
+    (   wait_before(Stamp, thread_get_message(Queue, Message0))
     ->  Message = Message0
     ;   Message = timeout
     ).

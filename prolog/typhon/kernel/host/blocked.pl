@@ -8,6 +8,7 @@
           ]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/monotonic', [monotonic_time/1]).
 :- use_module(turns, [turn_in/3]).
 
 /** <module> Workers that native goals block
@@ -67,7 +68,7 @@ limit(Count, Max, Blocked, Limit) :-
 
 blocked(Workers, Blocked) :-
     setting(typhon_scheduler:blocked_seconds, Seconds),
-    get_time(Now),
+    monotonic_time(Now),
     findall(What,
             ( member(Worker, Workers),
               turn_in(Worker, What, Since),

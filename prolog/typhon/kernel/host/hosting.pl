@@ -17,6 +17,7 @@
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/names', [must_be_name/2]).
+:- use_module('../base/monotonic', [monotonic_time/1]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module('../base/durable_changes',
@@ -285,7 +286,7 @@ stop_one(Name0) :-
     ),
     host_close(Name),
     forall(closes(Name), true),
-    get_time(Now),
+    monotonic_time(Now),
     setting(stop_seconds, Seconds),
     Deadline is Now+Seconds,
     forall(evacuate(Name, Deadline), true),

@@ -22,6 +22,7 @@
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../base/monotonic', [monotonic_time/1]).
 :- use_module('../base/durable', [durable/6]).
 :- use_module('../base/durable_changes',
               [durable_drop/3, durable_on/0, durable_put/4]).
@@ -40,6 +41,8 @@ take, in host seconds.
 *Threading*: any thread.  The counts are flags, which many threads change without
 leaving garbage, under one mutex: flag/3 would lock for each of them.
 */
+
+:- set_prolog_flag(optimise, true).     % arithmetic without calls
 
 :- dynamic
     host/3,                     % Name, Address, Place
@@ -98,7 +101,7 @@ note_plain(Name) :-
 host_plain_leaves(Name, Since) :-
     host_plain(Name, plain(_, _, none, Epoch, Rate, _, _, _, _)),
     !,
-    get_time(Now),
+    monotonic_time(Now),
     Since is (Now-Epoch)*Rate.
 
 asked(Name, Option, Default) :-
@@ -267,7 +270,7 @@ count(Flag, Change) :-
 
 host_came(Where, Since) :-
     Where = _-plain(_, _, _, Epoch, Rate, _, _, In, _),
-    get_time(Now),
+    monotonic_time(Now),
     Seconds is max(0.0, (Now-Epoch)*Rate-Since),
     with_mutex(typhon_host_flags, came(Where, In, Seconds)).
 
@@ -311,7 +314,7 @@ host_load(Name, Load) :-
 host_left(Name, Since) :-
     host_plain(Name, plain(_, _, _, Epoch, Rate, _, Load, _, Out)),
     !,
-    get_time(Now),
+    monotonic_time(Now),
     Seconds is max(0.0, (Now-Epoch)*Rate-Since),
     with_mutex(typhon_host_flags, left(Load, Out, Seconds)).
 host_left(Name, Since) :-

@@ -3,6 +3,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/monotonic', [monotonic_time/1]).
 :- use_module('../base/bounds', [memory_short/0]).
 :- use_module('../base/own_thread', [stop_thread/1]).
 :- use_module(alarms, [alarm_stamp/3]).
@@ -291,7 +292,7 @@ look_soon :-
 look_in(Seconds) :-
     flag(typhon_pool_looks, Looks, 1),
     (   Looks =:= 0
-    ->  get_time(Now),
+    ->  monotonic_time(Now),
         alarm_in(Seconds, pool, stuck(Now))
     ;   true
     ).

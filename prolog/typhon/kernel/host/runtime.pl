@@ -10,6 +10,7 @@
 :- use_module(library(error), [permission_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
+:- use_module('../base/monotonic', [monotonic_start/0, monotonic_stop/0]).
 :- use_module('../base/prolog_faults',
               [collect_clauses_less_often/0, forget_erased/0, functors_room/0]).
 :- use_module('../base/on_demand', [on_demand_load/2]).
@@ -99,12 +100,13 @@ reached_at(Port, Endpoint) :-
 start(Kind, Options) :-
     collect_clauses_less_often,
     own_thread_start,
-    catch(( time_start(Kind),
+    catch(( monotonic_start,
+            time_start(Kind),
             start_endpoint(Kind, Options),
             forall(beginning(Kind), true)
           ),
           Ball,
-          ( time_stop, own_thread_stop, throw(Ball) )),
+          ( time_stop, monotonic_stop, own_thread_stop, throw(Ball) )),
     forget_erased.
 
 start_endpoint(Kind, _) :-
@@ -161,6 +163,7 @@ released(_) :-
     time_stop,
     code_clear,
     forall(ending(after), true),
+    monotonic_stop,
     own_thread_stop.
 
                 /*******************************

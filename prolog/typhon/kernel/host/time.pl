@@ -27,6 +27,7 @@
           ]).
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../base/monotonic', [monotonic_time/1, wait_before/2]).
 :- use_module('../base/options', [options_load/2]).
 
 /** <module> The runtime: the threads that do the work, and time
@@ -162,7 +163,7 @@ time_now(Stamp) :-
     !,
     call(Now, Stamp).
 time_now(Stamp) :-
-    get_time(Stamp).
+    monotonic_time(Stamp).
 
 %!  alarm_set(+Stamp, +Agent, +Token) is det.
 %
@@ -208,11 +209,8 @@ time_wait(Queue, Message, Stamp) :-
 %
 %   As time_wait/3, but Stamp is of the time of day.
 
-time_day_wait(Queue, Message, inf) :-
-    !,
-    thread_get_message(Queue, Message).
 time_day_wait(Queue, Message, Stamp) :-
-    thread_get_message(Queue, Message, [deadline(Stamp)]).
+    wait_before(Stamp, thread_get_message(Queue, Message)).
 
 %!  agents_run(+Seconds) is det.
 %

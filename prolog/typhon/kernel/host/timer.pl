@@ -5,6 +5,7 @@
             timer_alarm/3,              % +Stamp, +Agent, +Token
             alarms_overdue/0
           ]).
+:- use_module('../base/monotonic', [monotonic_time/1]).
 :- use_module('../base/server',
               [ server_answer/2, server_cast/2, server_check/1,
                 server_start/4, server_stop/1 ]).
@@ -107,7 +108,7 @@ urgent(_) :-
 
 alarms_overdue :-
     (   timer(Timer)
-    ->  get_time(Now),
+    ->  monotonic_time(Now),
         alarms_renew(Now),
         ignore(server_cast(Timer, look))
     ;   true
@@ -155,7 +156,7 @@ announce(Stamp) :-
     set_flag(typhon_next, Next).
 
 alarms_if_due(Stamp, Index0, Index) :-
-    get_time(Now),
+    monotonic_time(Now),
     Stamp =< Now,
     !,
     (   turns_paused

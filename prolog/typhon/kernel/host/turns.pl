@@ -18,6 +18,7 @@
             in_context/2                % +Host, :Goal
           ]).
 :- use_module(library(lists), [member/2, min_member/2]).
+:- use_module('../base/monotonic', [monotonic_time/1]).
 
 /** <module> Turns of agents
 
@@ -46,6 +47,8 @@ pauses turns ends the pause.
 
 :- meta_predicate turn_if_short(+, 0).
 
+:- set_prolog_flag(optimise, true).     % arithmetic without calls
+
 :- dynamic
     keys/3,                     % Thread number, flag of agent, of time
     slow/2,                     % Kind, Until
@@ -61,7 +64,7 @@ turn_begins(What) :-
     ->  true
     ;   make_keys(AgentKey, TimeKey)
     ),
-    get_time(Now),
+    monotonic_time(Now),
     set_flag(TimeKey, Now),
     set_flag(AgentKey, What).
 
@@ -92,7 +95,7 @@ turn_of(Agent, Thread, Seconds) :-
 %   The last turn of each thread that exists. It may be over.
 
 turns_now(Agent, Thread, Seconds) :-
-    get_time(Now),
+    monotonic_time(Now),
     keys(Number, AgentKey, TimeKey),
     get_flag(AgentKey, Agent),
     get_flag(TimeKey, At),
@@ -133,11 +136,12 @@ remembered(waits, 10).
 %
 %   Call Turn, of an agent of that Kind. Fails if such a turn may be long.  It is
 %   short below so many inferences, which cost as much as some wake-ups, and
-%   below so many seconds.
+%   below so many seconds.  If the time of day is set meanwhile, the next turns
+%   count as long for a while, at worst.
 
 turn_if_short(Kind, Turn) :-
     (   slow(Kind, Until)
-    ->  get_time(Now),
+    ->  monotonic_time(Now),
         Now > Until
     ;   true
     ),
@@ -170,7 +174,7 @@ remember(What, Kind) :-
 %   Let no turn of that Kind count as short for Seconds.
 
 turns_not_short(Kind, Seconds) :-
-    get_time(Now),
+    monotonic_time(Now),
     Until is Now+Seconds,
     with_mutex(typhon_short_turns, slow_until(Kind, Until, Now)).
 

@@ -7,6 +7,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/monotonic', [monotonic_time/1]).
 :- use_module('../base/own_thread', [abort_quietly/0, in_own_thread/1]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../base/durable_changes', [durable_closed/0]).
@@ -103,7 +104,7 @@ wait_for_end(noted, Agent, none) :-
     ).
 wait_for_end(noted, Agent, Seconds0) :-
     Seconds is max(0, Seconds0),
-    get_time(Now),
+    monotonic_time(Now),
     setting(force_seconds, More),
     Deadline is Now+Seconds+More,
     in_own_thread(( ends_within(Agent, Seconds)
@@ -133,7 +134,7 @@ force(Agent, Deadline) :-
     ->  true
     ;   ends_within(Agent, 0.2)
     ->  true
-    ;   get_time(Now),
+    ;   monotonic_time(Now),
         Now > Deadline
     ->  throw(error(timeout_error(order, Agent), _))
     ;   force(Agent, Deadline)
@@ -206,8 +207,7 @@ evacuate(Host, Deadline) :-
     end_or_order(Host, Deadline),
     (   evacuated(Host, Deadline)
     ->  true
-    ;   thread_self(Me),
-        \+ thread_get_message(Me, '$typhon_never', [timeout(0.01)]),
+    ;   sleep(0.01),
         evacuate(Host, Deadline)
     ).
 
@@ -221,7 +221,7 @@ evacuated(Host, Deadline) :-
     (   host_load(Host, Load),
         Load =< 0
     ->  true
-    ;   get_time(Now),
+    ;   monotonic_time(Now),
         last_seconds(More),
         Now > Deadline+More
     ).
@@ -230,7 +230,7 @@ end_or_order(Host, Deadline) :-
     findall(Id, agent(Id, Host, _, _, _), Ids),
     forall(( member(Id, Ids), stays(Id) ),
            ignore(order_take(Id, evacuate(Host)))),
-    get_time(Now),
+    monotonic_time(Now),
     (   Now > Deadline
     ->  interrupt_all(Host, Ids)
     ;   true

@@ -12,6 +12,7 @@
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [last/2, member/2]).
 :- use_module(library(settings), [setting/4]).
+:- use_module('../base/monotonic', [monotonic_time/1, wait_before/2]).
 :- use_module('../base/on_demand',
               [on_demand_later/1, on_demand_load/2, on_demand_part/2]).
 :- use_module('../base/bounds', [bounded/2]).
@@ -90,7 +91,7 @@ agent_ask_here(Agent, Question, Seconds, Answer) :-
 %   and does not let virtual time run.
 
 agent_urge(Agent, Question, Seconds, Answer) :-
-    get_time(Now),
+    monotonic_time(Now),
     Deadline is Now+Seconds,
     ask(Agent, Question, by_day(Deadline), Answer).
 
@@ -138,8 +139,7 @@ ask(Where, Agent, Question, Deadline, Left, Answer) :-
 pause(Deadline, Agent) :-
     seconds_left(Deadline, Seconds),
     (   Seconds > 0
-    ->  thread_self(Me),
-        \+ thread_get_message(Me, '$typhon_never', [timeout(0.01)])
+    ->  sleep(0.01)
     ;   throw(error(timeout_error(order, Agent), _))
     ).
 
@@ -180,13 +180,13 @@ wait_for(Queue, Deadline, Agent, Answer) :-
 answered_by(by(Stamp), Queue, Answer) :-
     time_wait(Queue, Answer, Stamp).
 answered_by(by_day(Stamp), Queue, Answer) :-
-    thread_get_message(Queue, Answer, [deadline(Stamp)]).
+    wait_before(Stamp, thread_get_message(Queue, Answer)).
 
 seconds_left(by(Stamp), Seconds) :-
     time_now(Now),
     Seconds is Stamp-Now.
 seconds_left(by_day(Stamp), Seconds) :-
-    get_time(Now),
+    monotonic_time(Now),
     Seconds is Stamp-Now.
 
                 /*******************************

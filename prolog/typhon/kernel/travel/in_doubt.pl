@@ -7,6 +7,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/monotonic', [monotonic_time/1]).
 :- use_module('../wire',
               [ endpoint_address/1, endpoint_call/5, endpoint_gone/1,
                 endpoint_lasting/1, endpoint_peer/2, endpoint_reply/2,
@@ -242,6 +243,6 @@ down(Status) :-
 
 overdue(Status) :-
     arg(2, Status, Sent),
-    get_time(Now),
+    monotonic_time(Now),
     setting(typhon_in_doubt:shown_seconds, Limit),
     Now-Sent > Limit.

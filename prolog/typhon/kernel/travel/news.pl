@@ -5,6 +5,7 @@
           ]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/monotonic', [monotonic_time/1]).
 :- use_module('../base/durable_changes', [durable_on/0, durable_post/3]).
 :- use_module('../base/reports', [report/4]).
 :- use_module('../wire', [endpoint_post/3, endpoint_post_by/4]).
@@ -158,7 +159,7 @@ age(ended(_, _, Hops), age(Hops, 2, 0, 0)).  % fewer hops: a copy that was
 %   again, in case it is too slow; so the home may get it twice.
 
 typhon_runtime:ending(before) :-
-    get_time(Now),
+    monotonic_time(Now),
     setting(typhon_endpoint:flush_time, Seconds),
     Deadline is Now+Seconds,
     forall(courier(Home),
@@ -252,7 +253,7 @@ sent(ok, Home, _, _) :-
     with_mutex(typhon_news, after(Home, Courier)),
     start_courier(Courier, Home).
 sent(unreachable(_), Home, All, try(Since0, Pause)) :-
-    get_time(Now),
+    monotonic_time(Now),
     since(Since0, Now, Since),
     setting(news_seconds, Max),
     (   Now-Since > Max

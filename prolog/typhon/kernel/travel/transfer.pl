@@ -21,6 +21,7 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../base/monotonic', [monotonic_time/1]).
 :- use_module('../program', [answer_at/3]).
 :- use_module('../host',
               [ address_parts/3, event/4, events_forget/1, host_hop/3,
@@ -123,7 +124,7 @@ transfer_freeze(clone(Id, dest(Address, _, Endpoint), CloneId), Held, [],
 departs(Id, Hops, Endpoint, Sent) :-
     (   durable_on
     ->  hop_begins(Id, Hops, Endpoint, Sent)
-    ;   get_time(Sent)
+    ;   monotonic_time(Sent)
     ).
 
 %!  transfer_over(+Id, ?Hops) is det.

@@ -31,6 +31,7 @@ returns its own.
 :- use_module(library(settings), [setting/2, setting/4]).
 :- autoload(library(socket), [tcp_accept/3]).
 :- use_module('../base/reports', [report/4]).
+:- use_module('../base/monotonic', [monotonic_time/1]).
 :- use_module(connection, [incoming/5, open_streams/3]).
 :- use_module(threads,
               [ manager_notify/1, wire_thread_create/4, wire_thread_running/1,
@@ -127,7 +128,7 @@ give(In, Out, Ip, Me, Evicted) :-
     ->  true
     ;   throw(error(crowd, _))
     ),
-    get_time(Now),
+    monotonic_time(Now),
     wire_thread_create(serve(In, Out, Ip, Me), in-Ip, Thread,
                        assertz(unproved(Thread, Ip, Now, new(In, Out)))).
 

@@ -33,6 +33,7 @@ unless a process is expected there soon.
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2, min_member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/monotonic', [monotonic_time/1]).
 :- use_module(connection, [outgoing/2]).
 :- use_module(peer_cache, [peer_expected/1, peer_missed/2]).
 :- use_module(request, [session_unfinished/1]).
@@ -141,7 +142,7 @@ attempt_want(Address) :-
 
 attempts_begin(Me) :-
     (   attempt_next(Me, Address)
-    ->  get_time(Now),
+    ->  monotonic_time(Now),
         try(Address, Now, Me),
         attempts_begin(Me)
     ;   true
@@ -177,7 +178,7 @@ crowded :-
 
 young(Until) :-
     crowd_seconds(Seconds),
-    get_time(Now),
+    monotonic_time(Now),
     attempt(_, trying(_, Start, _, _), _, _),
     Until is Start+Seconds,
     Until > Now.
@@ -186,7 +187,7 @@ young(Until) :-
 
 try(Address, First, Me) :-
     attempt(Address, _, Pause, _),
-    get_time(Start),
+    monotonic_time(Start),
     late_at(Start, Until),
     waiting_number(Asked),
     catch(wire_thread_create(outgoing(Address, Me), out-Address, Thread),
@@ -216,7 +217,7 @@ attempt_greeted(Thread) :-
     (   attempt(Address, trying(Thread, Start, Asked, _), Pause, _),
         longest_pause(Longest),
         Pause < Longest
-    ->  get_time(Now),
+    ->  monotonic_time(Now),
         late_at(Now, Until),
         attempt_set(Address, trying(Thread, Start, Asked, Until), Pause, Now)
     ;   true
@@ -245,7 +246,7 @@ attempt_time(Time) :-
 %   End or begin the tries whose time has come.
 
 attempts_due(Me) :-
-    get_time(Now),
+    monotonic_time(Now),
     findall(Address-State,
             ( attempt(Address, State, _, _),
               State \== queued,
@@ -326,7 +327,7 @@ deadline(Address, First, Deadline) :-
 %   After about Pause seconds, at the Deadline at the latest.
 
 pause_end(Pause, Deadline, Until) :-
-    get_time(Now),
+    monotonic_time(Now),
     Some is float_fractional_part(Now*1000),    % library(random) is slow
     Until is min(Deadline, Now+Pause*(0.5+Some)).   % to begin
 
@@ -340,7 +341,7 @@ over(Formal, Address, Deadline) :-
     \+ soon_there(Formal, Address),
     !.
 over(_, _, Deadline) :-
-    get_time(Now),
+    monotonic_time(Now),
     Deadline =< Now.
 
 %   The process is being restarted.

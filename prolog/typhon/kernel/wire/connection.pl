@@ -30,6 +30,7 @@ connection on which the arbiter sends its count.
 :- autoload(library(socket),
               [ tcp_close_socket/1, tcp_connect/2, tcp_open_socket/3,
                 tcp_setopt/2, tcp_socket/1 ]).
+:- use_module('../base/monotonic', [monotonic_time/1]).
 :- use_module(peer_cache, [peer_gone/1, peer_met/2]).
 :- use_module(handshake,
               [ authenticate/6, cookie/1, hello_codec/3, hello_peer/4,
@@ -66,7 +67,7 @@ connection on which the arbiter sends its count.
 %   `proved` or refused(Formal).  If a call fails the connection ends.
 
 incoming(In, Out, Ip, Stage, Me) :-
-    get_time(Start),
+    monotonic_time(Start),
     catch(with_streams(call(Stage, silent), In, Out,
                        ( await_first_byte(In, Out),
                          call(Stage, heard),
@@ -128,7 +129,7 @@ loopback(Ip) :-
 
 outgoing(Address, Me) :-
     nb_setval(typhon_set_out, true),
-    get_time(Start),
+    monotonic_time(Start),
     catch(( address_parts(Address, Interface, Port),
             connect(Interface, Port, Socket),
             with_streams(open_streams(Socket, In, Out), In, Out,
@@ -312,7 +313,7 @@ send_count(Session, Out) :-
 
 receive_count(In, Count) :-
     setting(typhon_handshake:handshake_time, Seconds),
-    get_time(Now),
+    monotonic_time(Now),
     Deadline is Now+Seconds,
     line_read(In, Deadline, Line),
     (   string_concat("resume ", Digits, Line),

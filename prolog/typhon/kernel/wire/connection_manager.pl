@@ -18,6 +18,7 @@ background thread.
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2, min_list/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/monotonic', [monotonic_time/1]).
 :- use_module(attempts,
               [ address_met/1, address_wanted/1, attempt_ended/2,
                 attempt_greeted/1, attempt_time/1, attempts_begin/1,
@@ -104,7 +105,7 @@ handle(gone(Key), _) :-                 % the peer has sent `bye`
 handle(later(Time, Goal), _) :-         % Goal is quick
     assertz(errand(Time, Goal)).
 handle(timeout, Me) :-
-    get_time(Now),
+    monotonic_time(Now),
     run_errands(Now),
     attempts_due(Me).
 

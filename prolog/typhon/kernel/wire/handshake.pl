@@ -35,6 +35,7 @@ fact; two threads that read it at once store the same.
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(sha), [hash_atom/2, hmac_sha/4]).
 :- use_module('../base/private', [private_new/2]).
+:- use_module('../base/monotonic', [monotonic_time/1]).
 :- use_module(frame, [check_bytes/2]).
 :- use_module(transport, [line_read/3, line_write/2]).
 
@@ -153,7 +154,7 @@ record_format(90000, 90299).
 authenticate(Role, In, Out, Hello, Cookie, PeerHello) :-
     must_be(oneof([client, server]), Role),
     setting(handshake_time, Seconds),
-    get_time(Now),
+    monotonic_time(Now),
     Deadline is Now+Seconds,
     thread_self(Me),
     call_cleanup(

@@ -29,6 +29,7 @@ The token goes to the thread that takes it first.
 
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../base/monotonic', [monotonic_time/1]).
 :- use_module(session, [session_adopting/2]).
 :- use_module(threads,
               [ in_background/2, manager_notify/1, wire_thread_leaves/1,
@@ -151,7 +152,7 @@ leave(Goal, Flush) :-
 
 give(Queue) :-
     nb_linkval(typhon_lending, lent),
-    get_time(Began),
+    monotonic_time(Began),
     thread_send_message(Queue, token(Began)),
     check_if_needed.
 
@@ -215,7 +216,7 @@ check_if_needed :-
     ).
 
 check_later :-
-    get_time(Now),
+    monotonic_time(Now),
     check_seconds(Seconds),
     Time is Now+Seconds,
     ignore(manager_notify(later(Time, typhon_lending:check_lent))).
@@ -224,7 +225,7 @@ check_later :-
 
 check_lent :-
     flag(typhon_lending, _, 0),
-    get_time(Now),
+    monotonic_time(Now),
     findall(Seen, lent_now(Seen), All),
     forall(( member(Seen, All), is_overdue(Now, Seen, Thread, Began) ),
            ignore(release(Thread, Began))),

@@ -25,6 +25,8 @@ wait, and are not for the threads of the endpoint.
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [append/3, member/2, selectchk/3, subtract/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/monotonic',
+              [ monotonic_time/1, wait_before/2, wait_within/2 ]).
 :- use_module('../base/on_demand', [on_demand_load/2]).
 :- use_module(endpoint, [endpoint_address/1]).
 :- use_module(frame, [mobile_term/1]).
@@ -205,7 +207,7 @@ endpoint_hand(Address, Kind, Term, Hand) :-
 
 endpoint_call(Address, Kind, Term, Answer, Timeout) :-
     must_be(number, Timeout),
-    get_time(Now),
+    monotonic_time(Now),
     Deadline is Now+Timeout,
     setup_call_cleanup(
         message_queue_create(Queue),
@@ -219,9 +221,9 @@ endpoint_call(Address, Kind, Term, Answer, Timeout) :-
 %   which the connection was not down.
 
 await(Queue, Address, Deadline, Up0, Result) :-
-    get_time(Now),
+    monotonic_time(Now),
     Slice is max(0, min(1, Deadline-Now)),
-    (   thread_get_message(Queue, _-Result0, [timeout(Slice)])
+    (   wait_within(Slice, thread_get_message(Queue, _-Result0))
     ->  Result = Result0
     ;   Now >= Deadline
     ->  forget(Queue, Address),
@@ -260,7 +262,7 @@ call_result(late, Address, _) :-
 
 endpoint_ask_all(Addresses, Kind, Term, Further, Seconds, Results) :-
     must_be(number, Seconds),
-    get_time(Now),
+    monotonic_time(Now),
     Deadline is Now+Seconds,
     setup_call_cleanup(
         message_queue_create(Queue),
@@ -286,7 +288,7 @@ gather([], _, _, _, []) :-
     !.
 gather(Open, Asked, Asking, Deadline, [Address-Result|Results]) :-
     Asking = asking(Question, Queue, Further),
-    before(Deadline, Queue, Address-Result),
+    wait_before(Deadline, thread_get_message(Queue, Address-Result)),
     !,
     selectchk(Address, Open, Open1),
     more(Result, Further, Asked, New),
@@ -297,11 +299,6 @@ gather(Open, Asked, Asking, Deadline, [Address-Result|Results]) :-
 gather(Open, _, asking(_, Queue, _), _, Results) :-
     forall(member(Address, Open), forget(Queue, Address)),
     findall(Address-late, member(Address, Open), Results).
-
-before(Deadline, Queue, Message) :-
-    get_time(Now),
-    Wait is max(0, Deadline-Now),
-    thread_get_message(Queue, Message, [timeout(Wait)]).
 
 more(answer(Answer), Further, Asked, New) :-
     call(Further, Answer, More),

@@ -58,6 +58,7 @@ transport_input/2 tests both.
 */
 
 :- use_module(library(error), [permission_error/3, syntax_error/1]).
+:- use_module('../base/monotonic', [monotonic_time/1]).
 :- use_module('../base/index', [part_joins/3]).
 :- use_module('../base/on_demand', [on_demand_load/2]).
 :- use_module('../base/options', [options_load/2]).
@@ -251,7 +252,7 @@ line_read(In, Deadline, Line) :-
     string_codes(Line, Codes).
 
 line_codes(In, Deadline, Space, Codes) :-
-    get_time(Now),
+    monotonic_time(Now),
     Left is max(0.001, Deadline-Now),
     set_stream(In, timeout(Left)),
     get_byte(In, Byte),

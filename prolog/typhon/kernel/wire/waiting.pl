@@ -31,6 +31,7 @@ and the flushes are for any thread that may wait.
 
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../base/monotonic', [monotonic_time/1, wait_before/2]).
 :- use_module('../base/durable_changes', [commit_changes/0]).
 :- use_module('../base/error_text', [print_error/2]).
 :- use_module(outbox, [session_mark/2]).
@@ -171,17 +172,17 @@ missed(request(_, _, OnAnswer)) :-
 %   which cannot wait for itself, both fail.
 
 manager_connect(Address) :-
-    connected(Address, []).
+    connected(Address, inf).
 
 manager_connect(Address, Deadline) :-
-    connected(Address, [deadline(Deadline)]).
+    connected(Address, Deadline).
 
-connected(Address, Options) :-
+connected(Address, Deadline) :-
     \+ in_manager,
     setup_call_cleanup(
         message_queue_create(Queue),
         ( waiting_add(Address, thread(Queue)),
-          thread_get_message(Queue, Result, Options),
+          wait_before(Deadline, thread_get_message(Queue, Result)),
           Result == met ),
         ( retractall(waiting(_, _, thread(Queue))),
           message_queue_destroy(Queue) )).
@@ -238,7 +239,7 @@ unsent_again(_, _).
 
 endpoint_flush(Seconds) :-
     must_be(number, Seconds),
-    get_time(Now),
+    monotonic_time(Now),
     Deadline is Now+Seconds,
     forall(session(_, Session), session_flush(Session, Deadline)).
 
@@ -247,7 +248,7 @@ endpoint_flush(Seconds) :-
 %   As endpoint_flush/1, for frames to the addresses Peers.
 
 endpoint_flush(Seconds, Peers) :-
-    get_time(Now),
+    monotonic_time(Now),
     Deadline is Now+Seconds,
     forall(( member(Peer, Peers),
              route(Peer, Session) ),
@@ -260,7 +261,7 @@ endpoint_flush(Seconds, Peers) :-
 %   clean-up handlers, see manager_connect/2.
 
 peers_flush(Seconds) :-
-    get_time(Now),
+    monotonic_time(Now),
     Deadline is Now+Seconds,
     forall(( session(_, Session),
              reachable(Session, Deadline) ),
@@ -299,7 +300,7 @@ flush(Session, Queue, Deadline) :-
     ;   catch(session_mark(Session, flushed(Queue)),
               error(session_closed, _),
               thread_send_message(Queue, flushed)),
-        thread_get_message(Queue, flushed, [deadline(Deadline)])
+        wait_before(Deadline, thread_get_message(Queue, flushed))
     ).
 
 %   The waiting thread may have given up.

@@ -39,6 +39,7 @@ has no pusher, only held posts wait.
 
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [append/3, member/2]).
+:- use_module('../base/monotonic', [monotonic_time/1]).
 :- use_module('../base/error_text', [print_error/2]).
 :- use_module(frame, [bytes_term/3, frame_write/3]).
 :- use_module(session,
@@ -325,7 +326,7 @@ install(Session, Key, Thread, Out, PeerCount) :-
     byte_count(Out, Bytes),
     unacked_resumed(Session, PeerCount, Bytes, Handed, Again),
     unsettled_add(Key, Handed),
-    get_time(Now),
+    monotonic_time(Now),
     assertz(serving(Key, Thread, Now)),
     assertz(transport(Key, Thread, Out)),
     (   Again == [],

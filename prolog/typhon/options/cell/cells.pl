@@ -14,6 +14,7 @@
             cells_list/1                % -Cells
           ]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../../kernel/base/server',
               [ server_answer/2, server_call/4, server_cast/2, server_start/4,
                 server_stop/1 ]).
@@ -185,7 +186,7 @@ cell_give(Cell) :-
 give(Cell, Next) :-
     bound(Cell, Key),
     !,
-    get_time(Now),
+    monotonic_time(Now),
     assertz(idle(Cell, Now)),
     next_of(Key, Next0),
     (   Next0 == none,
@@ -318,7 +319,7 @@ serves(stop, _, _) :-
 %   The server retries once a second while agents wait for a missing cell.
 
 set_timer(until(Stamp, none)) :-
-    get_time(Now),
+    monotonic_time(Now),
     (   key_without_cell(_)
     ->  Stamp is Now+1
     ;   bound(_, _)
@@ -377,7 +378,7 @@ oldest_idle(Cell) :-
 
 idle_long(Cell) :-
     setting(idle, Idle),
-    get_time(Now),
+    monotonic_time(Now),
     idle(Cell, Since),
     Now-Since > Idle.
 

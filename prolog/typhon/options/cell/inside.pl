@@ -4,6 +4,7 @@
 :- use_module(library(settings), [set_setting/2]).
 :- use_module(library(terms), [term_size/2]).
 :- use_module('../../kernel/base/bounds', [space_used_up/1]).
+:- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../../kernel/base/on_demand', [on_demand_load/2]).
 :- use_module('../../kernel/base/trees', [is_tree/2]).
 :- use_module('../../kernel/program',
@@ -150,7 +151,7 @@ turn(N, Id, Known, Goals, Module, Out) :-
     agent_code(Module, Program),
     state_mark(Module, Mark),
     nb_setval(cell_mark, Mark),
-    get_time(Now),
+    monotonic_time(Now),
     nb_setval(cell_untold, told(0, Now)),
     run(context(Program, Module), Goals, Outcome, Note),
     send_all(N, 0),
@@ -335,7 +336,7 @@ most_unsent(50, 500).
 %   The first call after a pause is sent at once: a long goal may follow it.
 
 send_some(N, Count, Since) :-
-    get_time(Now),
+    monotonic_time(Now),
     most_unsent(Batch, _),
     (   Count mod Batch =\= 0,
         Now-Since < 0.01
@@ -351,7 +352,7 @@ send_all(N, Count) :-
         nb_getval(cell_connection, connection(_, Out)),
         cell_frame_write(Out, told(N, Goals))
     ),
-    get_time(Now),
+    monotonic_time(Now),
     nb_setval(cell_untold, told(Count, Now)).
 
 %   A call that may raise an error which the agent could catch waits for its

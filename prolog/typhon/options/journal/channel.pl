@@ -3,6 +3,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../../kernel/base/durable', [durable/5]).
 :- use_module('../../kernel/base/durable_changes',
               [ crash_point/1, durable_drop/3, durable_drop_below/3,
@@ -174,7 +175,7 @@ not_sent(existence_error(_, _), Endpoint, _) :-
 not_sent(unreachable(_), Endpoint, try(Since, _)) :-
     endpoint_gone(Endpoint),
     Since > 0,
-    get_time(Now),
+    monotonic_time(Now),
     setting(channel_seconds, Most),
     Now-Since > Most,
     !,
@@ -190,7 +191,7 @@ not_sent(Formal, Endpoint, try(Since0, Pause)) :-
     with_mutex(typhon_channel, retractall(sent(Endpoint, _))),
     longest_pause(Longest),
     Pause1 is min(Longest, 2*Pause),
-    get_time(Now),
+    monotonic_time(Now),
     (   Since0 =:= 0
     ->  Since = Now
     ;   Since = Since0

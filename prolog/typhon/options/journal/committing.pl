@@ -8,6 +8,7 @@
           ]).
 :- use_module(library(lists), [append/3, reverse/2]).
 :- use_module(library(rbtrees), [rb_insert_new/4, rb_new/1]).
+:- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../../kernel/base/durable_changes',
               [crash_point/1, durable_closed/0]).
 :- use_module('../../kernel/base/fifo', [fifo_empty/2]).
@@ -271,7 +272,7 @@ commits(begin, State, Next) :-
     commit_now(State, Next).
 commits(idle, State, until(Stamp, State)) :-
     idle_seconds(Seconds),
-    get_time(Now),
+    monotonic_time(Now),
     Stamp is Now+Seconds.
 commits(now, State, Next) :-
     commit_now(State, Next).
@@ -293,5 +294,5 @@ not_committed(Error, State, until(Stamp, State)) :-
     ),
     set_flag(typhon_journal_awake, 2),
     again_seconds(Seconds),
-    get_time(Now),
+    monotonic_time(Now),
     Stamp is Now+Seconds.

@@ -1,5 +1,6 @@
 :- module(typhon_hop_ids, []).
 :- use_module(library(lists), [member/2]).
+:- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../../kernel/wire', [endpoint_process/1]).
 :- use_module('../../kernel/agent', [agent_status/3]).
 :- use_module('../../kernel/travel',
@@ -41,7 +42,7 @@ typhon_transfer:hop_begins(Agent, Hops, Endpoint, Sent) :-
 %   Sent is the present time, and later than any before, so that ids differ.
 
 stamp(Sent) :-
-    get_time(Now),
+    monotonic_time(Now),
     (   retract(last(Last))
     ->  Sent is max(Now, Last+0.000004)
     ;   Sent = Now

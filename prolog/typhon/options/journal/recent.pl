@@ -6,6 +6,7 @@
             recent_committed/1          % +Changes
           ]).
 :- use_module(library(lists), [append/2, append/3]).
+:- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
 
 /** <module> Recent commits that the server may lose
 
@@ -68,7 +69,7 @@ recent_before(Changes, All) :-
 recent_committed(Changes) :-
     keeps(Seconds),
     !,
-    get_time(Now),
+    monotonic_time(Now),
     recent_before(Changes, All),
     (   retract(doubtful)
     ->  retractall(recent(_, _))

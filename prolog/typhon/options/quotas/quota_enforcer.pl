@@ -6,6 +6,7 @@
 :- use_module(library(pairs), [group_pairs_by_key/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/base/bounds', [space_used_up/1]).
+:- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../../kernel/base/server', [server_start/4, server_stop/1]).
 :- use_module('../../kernel/base/trees', [is_tree/2]).
 :- use_module('../../kernel/program',
@@ -181,7 +182,7 @@ enforces(timeout, State, Next) :-
     set_timer(State, Next).
 
 set_timer(State, until(Stamp, State)) :-
-    get_time(Now),
+    monotonic_time(Now),
     Stamp is Now+0.1.
 
 look :-
@@ -232,7 +233,7 @@ another_runs(Thread) :-
 
 pause_in(Thread, Agent) :-
     setting(pause, Part),
-    get_time(Now),
+    monotonic_time(Now),
     Until is Now+0.1*Part,
     signal(Thread, pause(Agent, Until)).
 
@@ -348,7 +349,7 @@ interrupt(Agent, What) :-
 pause(Agent, Until) :-
     (   inside(Agent),
         \+ has_mutex
-    ->  get_time(Now),
+    ->  monotonic_time(Now),
         Seconds is Until-Now,
         sleep(Seconds)                  % returns at once if negative
     ;   true

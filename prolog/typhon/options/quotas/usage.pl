@@ -3,6 +3,7 @@
             usage_forget/1              % +Host
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../../kernel/base/trees', [is_tree/2]).
 :- use_module('../../kernel/host', [context_now/2]).
 :- use_module('../../kernel/agent', [agent/5, life_payloads/2]).
@@ -115,7 +116,7 @@ spend(Host, Agent, What) :-
     spend_shared(Host, Agent, What).
 
 this_second(Second) :-
-    get_time(Now),
+    monotonic_time(Now),
     Second is integer(Now).
 
 spend(Agent, What, Second, Most) :-

@@ -8,6 +8,7 @@
           ]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../../kernel/base/monotonic', [wait_within/2]).
 :- use_module('../../kernel/wire',
               [ endpoint_address/1, endpoint_call/5, endpoint_reply/2,
                 endpoint_request/4 ]).
@@ -70,7 +71,7 @@ time_at(clock(Epoch, Rate), Time) :-
 gather(To) :-
     To = to(_, _, Signals, _),
     setting(delay, Seconds),
-    (   thread_get_message(Signals, Message, [timeout(Seconds)])
+    (   wait_within(Seconds, thread_get_message(Signals, Message))
     ->  handle_message(Message, To, gather(To))
     ;   send_batches(To)
     ).

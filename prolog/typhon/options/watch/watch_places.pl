@@ -9,6 +9,7 @@
             place_stopped/2             % +Watch, +Host
           ]).
 :- use_module(library(lists), [append/3, member/2]).
+:- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../../kernel/host', [address_parts/3]).
 :- use_module(event_sender, [time_at/2]).
 
@@ -164,7 +165,7 @@ still_wanted(Watch, Endpoint, Lost) :-
     ).
 
 again_later(Watch, Endpoint, Pause) :-
-    get_time(Now),
+    monotonic_time(Now),
     Again is Now+Pause,
     longest_pause(Longest),
     Next is min(Longest, 2*Pause),

@@ -7,6 +7,7 @@
 :- use_module(library(apply), [partition/4]).
 :- use_module(library(lists), [delete/3, member/2, min_list/2]).
 :- use_module(library(settings), [setting/4]).
+:- use_module('../../kernel/base/monotonic', [monotonic_time/1, wait_before/2]).
 :- use_module('../../kernel/base/error_text', [error_lines/3, is_abort/1]).
 :- use_module('../../kernel/wire',
               [endpoint_address/1, endpoint_reply/2, endpoint_request/4]).
@@ -140,7 +141,7 @@ next(me(Watch, Queue, _), Message) :-
     (   Agains == []
     ->  thread_get_message(Queue, Message)
     ;   min_list(Agains, Deadline),
-        (   thread_get_message(Queue, Message0, [deadline(Deadline)])
+        (   wait_before(Deadline, thread_get_message(Queue, Message0))
         ->  Message = Message0
         ;   Message = due
         )
@@ -161,7 +162,7 @@ handle_message(connection(Peer, up), Me) =>
     request_again(Peer, down(_, _), Me).
 handle_message(due, Me) =>
     Me = me(Watch, _, _),
-    get_time(Now),
+    monotonic_time(Now),
     forall(( place_due(Watch, Endpoint, Again), Again =< Now ),
            request_watch(Endpoint, Me)).
 handle_message(asked(Endpoint, Result), Me) =>

@@ -8,6 +8,7 @@
 :- use_module(library(http/websocket), [ws_send/2]).
 :- use_module(library(lists), [reverse/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../../kernel/base/monotonic', [monotonic_time/1, poll_within/2]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/base/json', [json_text/2]).
 :- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
@@ -74,9 +75,7 @@ stop(Sender) :-
     server_stop(Sender),
     retractall(skipped(_, _)),
     forall(browser(Browser, _), disconnect(Browser)),
-    get_time(Now),
-    Deadline is Now+5,
-    wait_until_gone(Deadline).
+    wait_until_gone.
 
 %   If the queue of a browser is full, its thread is blocked in sending, and
 %   would not read the message: it is interrupted.
@@ -89,11 +88,10 @@ disconnect(Browser) :-
           ),
           error(existence_error(_, _), _), true).
 
-wait_until_gone(Deadline) :-
-    thread_wait(\+ browser(_, _),
-                [ deadline(Deadline), wait_preds([browser/2]) ]),
+wait_until_gone :-
+    poll_within(5, \+ browser(_, _)),
     !.
-wait_until_gone(_) :-
+wait_until_gone :-
     forall(browser(_, Thread),
            catch(thread_signal(Thread, throw(typhon_page(bye))),
                  error(existence_error(_, _), _), true)).
@@ -142,7 +140,7 @@ handle(stop, frame(_, _, Events), _) :-
 
 send_frame(Events0, Next) :-
     reverse(Events0, Events),
-    get_time(Now),
+    monotonic_time(Now),
     send_events(Events, Now),
     setting(frame_seconds, Seconds),
     Due is Now+Seconds,
@@ -150,7 +148,7 @@ send_frame(Events0, Next) :-
 
 begin_frame(Due, until(Beat, frame(Due, 0, []))) :-
     setting(heartbeat_seconds, Pause),
-    get_time(Now),
+    monotonic_time(Now),
     Beat is Now+Pause.
 
 send_events(_, _) :-

@@ -14,6 +14,7 @@
           ]).
 :- use_module(library(apply), [maplist/3, maplist/4]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../../kernel/base/error_text', [abridged/3]).
 :- use_module('../../kernel/host', [address_parts/3]).
 
@@ -276,7 +277,7 @@ choose_reference(_) :-
     !,
     assertz(reference(Epoch, Rate)).
 choose_reference(_) :-
-    get_time(Now),
+    monotonic_time(Now),
     assertz(reference(Now, 1)).
 
 %!  page_time(+Stamp, -Time) is det.

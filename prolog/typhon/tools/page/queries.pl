@@ -12,6 +12,7 @@
 :- use_module(library(option), [option/2]).
 :- use_module(library(solution_sequences), [limit/2]).
 :- use_module('../../kernel/agent', [agent/5]).
+:- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../../kernel/host', [address_parts/3]).
 :- use_module('../../kernel/lifecycle', [agent_join/3]).
 :- use_module('../../network', [network_property/2]).
@@ -121,7 +122,7 @@ last_part(Name, Endpoint) :-
 
 present_scene(Dict) :-
     sources_look(Scene),
-    get_time(Now),
+    monotonic_time(Now),
     page_time(Now, Time),
     scene_dict(Time, Scene, Dict).
 
