@@ -183,15 +183,16 @@ sequence_change(Sequence, Hosts, Tasks) :-
     pairs_keys_values(Found, Parts, Versions),
     (   Parts == []
     ->  existence_error(sequence, Sequence)
-    ;   new_version(Versions, Version),
+    ;   new_version(Parts, Versions, Version),
         maplist(put_plan(plan(Sequence, Version, Tasks)), Parts)
     ).
 
-%   The version of a plan is its creation time, or slightly more than the
-%   newest version found, if that was made on a faster clock.
+%   The version of a plan is its creation time, by the clock of a host, or
+%   slightly more than the newest version found, if that was made on a faster
+%   clock.
 
-new_version(Versions, Version) :-
-    get_time(Now),
+new_version(Hosts, Versions, Version) :-
+    ( Hosts = [Host|_] -> remote(Host, now(Now)) ; Now = 0 ),
     foldl(later_than, Versions, Now, Version).
 
 later_than(Found, Version0, Version) :-
@@ -206,7 +207,7 @@ version(Sequence, Hosts, Tasks, Version) :-
         memberchk(Newest-Found, Plans),
         Found =@= Tasks
     ->  Version = Newest
-    ;   new_version(Versions, Version)
+    ;   new_version(Hosts, Versions, Version)
     ).
 
 plan_at(Sequence, Hosts, Host, Version, Tasks) :-
