@@ -64,6 +64,11 @@ problem(no_such_predicate(File, Module, PI)) :-
 problem(circle(File)) :-
     layer_module(File, _, _),
     reaches_by_import(File, File).
+problem(time_of_day(File, Name)) :-
+    tree_file(File),
+    goes_by_the_clock(File),
+    by_day(File, Name),
+    \+ may_use(File, Name).
 problem(stray_comment_end(File)) :-
     size(File, '*/'/0, _, _).
 problem(Problem) :-
@@ -74,6 +79,50 @@ problem(Problem) :-
     kinds_problem(Problem).
 problem(Problem) :-
     loaded_problem(Problem).
+
+%   goes_by_the_clock(+File) is semidet.
+%   by_day(+File, -Name) is nondet.
+%   may_use(+File, +Name) is semidet.
+%
+%   Programs in these folders wait and measure by typhon_monotonic, since the
+%   time of day can be set, or, as agents, by the clocks of hosts.  Those that
+%   may use the time of day have dates that others read, or compare the times
+%   of files; a wrong end of the wait of an idle worker is harmless.
+
+goes_by_the_clock(File) :-
+    member(Top, ['prolog/', 'app/', 'agents/', 'payloads/', 'experiments/']),
+    inside(Top, Prefix),
+    atom_concat(Prefix, _, File),
+    !.
+
+by_day(File, Name) :-
+    member(Name, [ get_time, thread_wait, thread_idle, call_with_time_limit,
+                   alarm_at ]),
+    mentions(File, Name).
+by_day(File, wait) :-
+    waits_by_day(File).
+
+may_use(File, Name) :-
+    may_use_by_day(Relative, Names),
+    memberchk(Name, Names),
+    inside(Relative, File),
+    !.
+
+may_use_by_day('prolog/typhon/kernel/base/monotonic.pl', [get_time,wait]).
+may_use_by_day('prolog/typhon/kernel/base/fifo.pl', [wait]).   % defines it
+may_use_by_day('prolog/typhon/kernel/host/pool.pl', [wait]).
+may_use_by_day('prolog/typhon/kernel/host/turns.pl', [get_time]).
+may_use_by_day('prolog/typhon/kernel/agent/fault.pl', [get_time]).
+may_use_by_day('prolog/typhon/kernel/program/source.pl', [get_time]).
+may_use_by_day('prolog/typhon/options/access.pl', [get_time]).
+may_use_by_day('prolog/typhon/options/keys.pl', [get_time]).
+may_use_by_day('prolog/typhon/bridges/fipa/letter.pl', [get_time]).
+may_use_by_day('prolog/typhon/bridges/fipa/managers.pl', [get_time]).
+may_use_by_day('prolog/typhon/tools/problem_text.pl', [call_with_time_limit]).
+may_use_by_day('prolog/tartarus/lives.pl', [thread_wait]).  % has no timeout
+may_use_by_day('prolog/tartarus/moves.pl', [get_time]).
+may_use_by_day('prolog/tartarus/messages.pl', [get_time]).
+may_use_by_day('payloads/fipa/contract_net.pl', [get_time]).
 
 %   has_predicate(+File, +Module, +PI) is semidet: File, of Module, defines,
 %   declares or imports PI, or a predicate with more arguments, as closures have.
@@ -218,6 +267,11 @@ says(past_interface(F, M, PI), '~w: calls ~w of ~w, which is internal',
 says(no_such_predicate(F, M, PI), '~w: names ~w of ~w, which is not there',
      [F, PI, M]).
 says(circle(F), '~w: imports itself, in a circle', [F]).
+says(time_of_day(F, wait), '~w: waits by the time of day, see \c
+     kernel/base/monotonic.pl', [F]).
+says(time_of_day(F, N), '~w: uses ~w, which goes by the time of day, see \c
+     kernel/base/monotonic.pl', [F, N]) :-
+    N \== wait.
 says(stray_comment_end(F), '~w: a stray */ makes the next directive a clause',
      [F]).
 says(breaks_rule(F, H), '~w: defines ~w of a higher layer', [F, H]) :-

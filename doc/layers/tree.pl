@@ -16,6 +16,7 @@
             size/4,             % ?File, ?PI, ?First, ?Last
             nodes/2,            % ?File, ?Count
             pauses/2,           % ?File, -Count
+            waits_by_day/1,     % ?File
             inside/2,           % ?Relative, ?File
             layers/1,           % -Layers
             layer_module/3,     % ?File, ?Layer, ?Name
@@ -56,7 +57,8 @@
     size/4,                     % File, PI, first and last line
     nodes/2,                    % File, Count: nodes of the term of a clause
     agent_program/1,            % File
-    clause_pauses/2.            % File, Count: of a clause
+    clause_pauses/2,            % File, Count: of a clause
+    waits_by_day/1.             % File: calls a wait of Prolog with a timeout
 
 :- prolog_load_context(directory, Dir),
    file_directory_name(Dir, Doc),
@@ -106,6 +108,7 @@ note(Clause, File, First, Last) :-
     term_nodes(Clause, Nodes),
     assertz(nodes(File, Nodes)),
     note_pauses(Clause, File),
+    note_waits(Clause, File),
     (   clause_head(Clause, Module:Head)
     ->  functor(Head, Name, Arity),
         assertz(defines(File, Module:Name/Arity)),
@@ -139,6 +142,20 @@ pause_in(Term, Around) :-
     ;   arg(_, Term, Part),
         pause_in(Part, Term)
     ).
+
+note_waits(Clause, File) :-
+    (   sub_term(Term, Clause),
+        is_timed(Term),
+        \+ waits_by_day(File)
+    ->  assertz(waits_by_day(File))
+    ;   true
+    ).
+
+is_timed(Term) :-
+    compound(Term),
+    compound_name_arguments(Term, Name, [_, _, Options]),
+    memberchk(Name, [thread_get_message, thread_send_message]),
+    Options \== [timeout(0)].
 
 %   pauses(?File, -Count): File calls sleep/1 at so many places.
 
