@@ -23,7 +23,7 @@
 :- use_module(library(lists), [member/2, selectchk/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../kernel/base/monotonic',
-              [ monotonic_time/1, poll_within/2, wait_before/2 ]).
+              [ monotonic_time/1, poll_within/2, wait_within/2 ]).
 :- use_module('../kernel/base/error_text', [harmless_error/2]).
 :- use_module('../kernel/wire', [endpoint_address/1, endpoint_request/4]).
 :- use_module(children, [child_secret/1]).
@@ -235,11 +235,11 @@ answers([], _, _, _, []) :-
     !.
 answers(Ps, Queue, Deadline, Watch, Results) :-
     call(Watch, Ps),
-    deadline(1, Soon),
-    Slice is min(Soon, Deadline),
-    (   wait_before(Slice, thread_get_message(Queue, Answer))
+    monotonic_time(Now),
+    Slice is max(0, min(1, Deadline-Now)),
+    (   wait_within(Slice, thread_get_message(Queue, Answer))
     ->  take(Answer, Ps, Rest, Results, Others)
-    ;   Soon < Deadline
+    ;   Now+1 < Deadline
     ->  Rest = Ps,
         Results = Others
     ;   take(_-late, Ps, Rest, Results, Others)

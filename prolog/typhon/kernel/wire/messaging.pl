@@ -26,7 +26,7 @@ wait, and are not for the threads of the endpoint.
 :- use_module(library(lists), [append/3, member/2, selectchk/3, subtract/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/monotonic',
-              [ monotonic_time/1, wait_before/2, wait_within/2 ]).
+              [monotonic_time/1, wait_within/2]).
 :- use_module('../base/on_demand', [on_demand_load/2]).
 :- use_module(endpoint, [endpoint_address/1]).
 :- use_module(frame, [mobile_term/1]).
@@ -288,7 +288,9 @@ gather([], _, _, _, []) :-
     !.
 gather(Open, Asked, Asking, Deadline, [Address-Result|Results]) :-
     Asking = asking(Question, Queue, Further),
-    wait_before(Deadline, thread_get_message(Queue, Address-Result)),
+    monotonic_time(Now),
+    Left is max(0, Deadline-Now),
+    wait_within(Left, thread_get_message(Queue, Address-Result)),
     !,
     selectchk(Address, Open, Open1),
     more(Result, Further, Asked, New),

@@ -1,0 +1,158 @@
+:- module(set_clock_main, [set_clock_main/0]).
+
+/** <module> What happens when the time of day is set
+
+    swipl -g set_clock_main test/lib/set_clock_main.pl -- Scenario Step
+
+runs a scenario while its time of day is set by so many seconds, and prints a
+term that test_set_clock.pl expects.
+
+*Threading*: the main thread runs the scenario, another one sets the clock.
+*/
+
+:- use_module(common).
+:- use_module(set_clock).
+:- use_module(library(lists), [last/2, nth1/3, numlist/3]).
+:- use_module(library(apply), [foldl/4]).
+:- use_module(library(random), [random_member/2]).
+:- use_module(library(typhon)).
+:- use_module(library(typhon/python)).
+:- use_module(library(typhon/kernel), [agents_run/1]).
+
+set_clock_main :-
+    current_prolog_flag(argv, [Name, Text|_]),
+    atom_number(Text, Step),
+    scenario(Name, Step, Result),
+    format("~q.~n", [Result]),
+    halt.
+
+%   meanwhile(+Step, :Goal): the clock is set by Step 0.3 s after Goal began.
+
+:- meta_predicate meanwhile(+, 0).
+
+meanwhile(Step, Goal) :-
+    thread_create(( sleep(0.3), clock_set(Step) ), Setter),
+    call(Goal),
+    thread_join(Setter).
+
+:- meta_predicate lasts(+, 0, -).
+
+%   Word says whether Goal, which is to wait for a second, waits so long, not
+%   a step longer or shorter.  A loaded computer may add some seconds.
+
+lasts(Step, Goal, Word) :-
+    seconds_of(meanwhile(Step, Goal), Seconds),
+    (   Seconds < 0.9
+    ->  Word = early(Seconds)
+    ;   Seconds < 25
+    ->  Word = in_time
+    ;   Word = late(Seconds)
+    ).
+
+with_agent(Clauses, Agent, Goal) :-
+    host_start(here),
+    agent_create(clauses([(:- agent(waiter, []))|Clauses]), Agent),
+    call(Goal),
+    host_stop(here).
+
+scenario(sleep, Step, Outcome-Word) :-
+    with_agent([(main :- sleep(1))], Agent,
+               lasts(Step, agent_join(Agent, Outcome, 100), Word)).
+scenario(receive, Step, Outcome-Word) :-
+    with_agent([(main :- ( receive(_-never, 1) -> fail ; true ))], Agent,
+               lasts(Step, agent_join(Agent, Outcome, 100), Word)).
+scenario(join, Step, Outcome-Word) :-
+    with_agent([(main :- receive(_-never))], Agent,
+               lasts(Step, agent_join(Agent, Outcome, 1), Word)).
+scenario(agents_run, Step, Word) :-
+    with_agent([main], _, lasts(Step, agents_run(1), Word)).
+scenario(now, _, Back) :-
+    host_start(here),
+    numlist(1, 10, Rounds),
+    foldl(later_than, Rounds, 0-0, _-Back),
+    host_stop(here).
+scenario(child, Step, Word) :-          % host time of the network is from 0
+    host_start(here),
+    clock_set(Step),
+    network_start(ring(2), Network, [processes(2)]),
+    network_property(Network, hosts(Hosts)),
+    last(Hosts, Far),
+    remote(Far, now(Time)),
+    network_stop(Network),
+    host_stop(here),
+    ( Time > -1, Time < 25 -> Word = same ; Word = other(Time) ).
+scenario(network, Step, Outcome-Word) :-
+    lasts(Step, ( network_start(ring(4), Network, [processes(2)]),
+                  network_property(Network, hosts([Host|_])),
+                  agent_create(clauses([ (:- agent(walker, [])),
+                                         (main :- walk(10)),
+                                         (walk(0) :- !),
+                                         (walk(N) :- next_host(random, H),
+                                                     move(H), sleep(0.1),
+                                                     N1 is N-1, walk(N1)) ]),
+                               Agent, [host(Host)]),
+                  agent_join(Agent, Outcome, 100) ),
+          Word0),
+    lasts(0, ( network_stop(Network), sleep(1) ), Word1),
+    ( Word0 == Word1 -> Word = Word0 ; Word = Word0/Word1 ).
+scenario(python, Step, [Value,Caught,Word]) :-
+    project_file('test/lib/python_functions.py', File),
+    host_start(here),
+    python_start(here, File, [timeout(20)]),
+    meanwhile(Step, remote(here, nap(1, Value))),
+    python_stop(here),
+    clock_set(0),
+    python_start(here, File, [timeout(1)]),
+    lasts(Step, catch(remote(here, nap(40, _)), error(Formal, _), true), Word),
+    functor(Formal, Caught, _),
+    host_stop(here).
+scenario(chaos, Most, Outcomes) :-
+    network_start(ring(4), Network, [processes(2)]),
+    network_property(Network, hosts(Hosts)),
+    thread_create(set_randomly(Most), Setter),
+    findall(Agent,
+            ( between(1, 12, I), nth1(At, Hosts, Host), At =:= I mod 4+1,
+              agent_create(clauses([ (:- agent(walker, [state([sum/1])])),
+                                     sum(0),
+                                     (main :- walk(60)),
+                                     (walk(0) :- !, sum(60)),
+                                     (walk(N) :- next_host(random, H), move(H),
+                                                 retract(sum(S)), S1 is S+1,
+                                                 assertz(sum(S1)), rest(N),
+                                                 N1 is N-1, walk(N1)),
+                                     (rest(N) :- N mod 6 =:= 0, !, sleep(0.2)),
+                                     (rest(N) :- N mod 6 =:= 1, !,
+                                                 ( receive(_-x, 0.1) -> fail ; true )),
+                                     rest(_) ]), Agent, [host(Host)]) ),
+            Agents),
+    findall(Outcome,
+            ( member(Agent, Agents), agent_join(Agent, Outcome, 100) ),
+            All),
+    thread_send_message(Setter, stop),
+    thread_join(Setter),
+    network_stop(Network),
+    sort(All, Outcomes).
+
+set_randomly(Most) :-
+    thread_self(Me),
+    (   thread_peek_message(Me, stop)
+    ->  true
+    ;   random_member(Part, [-1, -0.01, 0, 0.01, 1]),
+        Seconds is Part*Most,
+        clock_set(Seconds),
+        sleep(0.1),
+        set_randomly(Most)
+    ).
+
+%   later_than(+Round, +Last-Back, -Last-Back): Back is how far now/1 has gone
+%   back.
+
+later_than(Round, Last0-Back0, Last-Back) :-
+    Seconds is 3600*(Round mod 3-1),
+    clock_set(Seconds),
+    numlist(1, 300, Times),
+    foldl(reading, Times, Last0-Back0, Last-Back).
+
+reading(_, Last-Back0, Now-Back) :-
+    remote(here, now(Now)),
+    Back is max(Back0, Last-Now).
