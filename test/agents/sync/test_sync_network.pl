@@ -452,3 +452,30 @@ run_was_in_step(Run) :-
     \+ overlap(Events, [1, 2, 3]).
 
 :- end_tests(sync_here).
+
+:- begin_tests(sync_in_virtual_time).
+
+virtual_log(Text) :-
+    tmp_file(events, File),
+    setup_call_cleanup(
+        network_start(ring(4), Network,
+                      [ clock(virtual), seed(1), hop_time(uniform(1, 2)),
+                        log(File, [facts]) ]),
+        ( network_property(Network, hosts(Hosts)),
+          tasks([1, 2], Tasks),
+          start(house, Hosts, Tasks, Agents),
+          network_advance(Network, 3),
+          tasks([1, 2, 3], More),
+          sequence_change(house, Hosts, More),
+          forall(member(Agent, Agents),
+                 agent_join(Agent, done, 86400)) ),
+        network_stop(Network)),
+    read_file_to_string(File, Text, []),
+    delete_file(File).
+
+test(logs_with_facts_are_identical, Again == First) :-
+    virtual_log(First),
+    assertion(sub_string(First, _, _, _, "plan(house,")),
+    virtual_log(Again).
+
+:- end_tests(sync_in_virtual_time).
