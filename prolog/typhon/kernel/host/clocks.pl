@@ -11,8 +11,8 @@
 /** <module> The clocks of hosts
 
 A host has a clock: host seconds are (real time - Epoch) * Rate.  The default,
-epoch 0 and rate 1, is the time of day.  Hosts of one network share epoch and
-rate, so that agents and experiments are written in host seconds and run as
+epoch 0 and rate 1, is the time of day, but for what the clock of the computer
+was set by.  Hosts of one network share epoch and rate, so that agents and experiments are written in host seconds and run as
 fast as Rate says.
 
 *Threading*: any thread.

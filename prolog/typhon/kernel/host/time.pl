@@ -34,10 +34,9 @@
 
 A runtime of some Kind does the work, fires the alarms, and serves callers that
 wait.  The kernel has `real`, a pool of threads, see typhon_pool; an option has
-`single`, for a Prolog without threads, see typhon_single.  Both use the time of
-day.
-A process has one kind as long as it has hosts.  Stamps are seconds: of the
-time of day, or of the clock of the runtime.
+`single`, for a Prolog without threads, see typhon_single.  Both use
+monotonic_time/1.  A process has one kind as long as it has hosts.  Stamps are
+seconds, of that time or of the clock of the runtime.
 
 A runtime defines the hooks below for its Kind.  It must define those of the
 first group; each of the others describes a property that a runtime may lack.
@@ -62,7 +61,7 @@ first group; each of the others describes a property that a runtime may lack.
 
 :- multifile
     clock/2,                    % Kind, Now: call(Now, Stamp) is the time, if
-                                % not that of day
+                                % not monotonic_time/1
     wanted/2,                   % Option, Kind: see time_wanted/2
     apart/2,                    % Kind, Address: see time_apart/2
     repeats/2,                  % Kind, Mark: see time_repeats/2
@@ -207,7 +206,7 @@ time_wait(Queue, Message, Stamp) :-
 
 %!  time_day_wait(+Queue, -Message, +Stamp) is semidet.
 %
-%   As time_wait/3, but Stamp is of the time of day.
+%   As time_wait/3, but Stamp is a monotonic_time/1.
 
 time_day_wait(Queue, Message, Stamp) :-
     wait_before(Stamp, thread_get_message(Queue, Message)).
@@ -314,7 +313,7 @@ time_signal(_).
 %!  time_hold(+Seconds) is semidet.
 %
 %   Hold time: no agent gets a turn, and no alarm goes off.  Fails if that is
-%   not so within Seconds of the time of day.
+%   not so within Seconds of real time.
 
 time_hold(Seconds) :-
     time_kind(Kind),

@@ -78,7 +78,7 @@ timer_check :-
 
 %!  timer_alarm(+Stamp, +Agent, +Token) is det.
 %
-%   Set an alarm that calls fire(Agent, Token) at Stamp, of the time of day.
+%   Set an alarm that calls fire(Agent, Token) at Stamp, a monotonic_time/1.
 
 timer_alarm(Stamp0, Agent, Token) :-
     Stamp is float(Stamp0),

@@ -87,7 +87,7 @@ agent_ask_here(Agent, Question, Seconds, Answer) :-
 
 %!  agent_urge(+Agent, +Question, +Seconds, -Answer) is semidet.
 %
-%   As agent_ask/4, but waits by the time of day even where time is virtual,
+%   As agent_ask/4, but waits by real time even where time is virtual,
 %   and does not let virtual time run.
 
 agent_urge(Agent, Question, Seconds, Answer) :-

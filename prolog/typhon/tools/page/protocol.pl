@@ -283,8 +283,8 @@ choose_reference(_) :-
 %!  page_time(+Stamp, -Time) is det.
 %!  page_time(+Host, +HostTime, -Time) is det.
 %
-%   Time is the time of the page, in seconds: at Stamp, a time of day in
-%   seconds, or when the clock of Host, an address, shows HostTime.  With
+%   Time is the time of the page, in seconds: at Stamp, a monotonic_time/1, or
+%   when the clock of Host, an address, shows HostTime.  With
 %   virtual time no time of the page belongs to Stamp: page_time/2 gives `null`.
 
 page_time(Stamp, Time) :-
