@@ -8,6 +8,7 @@
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(error_text, [abridged/3]).
+:- use_module(monotonic, [monotonic_time/1]).
 
 /** <module> Warnings that agents and peers can cause as often as they want
 
@@ -16,7 +17,7 @@ for each group of the kind, such as an agent or an address, and when the second
 is over one message reports their numbers.  So a flood does not fill the log,
 and does not go unnoticed.
 
-Time passes by the clock of the system.  The hook wakes/1 calls reports_due/0
+Time passes by the monotonic clock.  The hook wakes/1 calls reports_due/0
 when a second is over; without it the next report does that, or reports_end/0
 when the endpoint or the process ends.
 
@@ -50,7 +51,7 @@ report(Level, Kind, Group, Message) :-
     report(Level, Kind, Group, 1, Message).
 
 report(Level, Kind, Group, Count, Message) :-
-    get_time(Now),
+    monotonic_time(Now),
     conclude_all(Now, 1),
     locked(note(Level, Kind, Group, Count, Now, How)),
     (   How = first(Until)
@@ -104,7 +105,7 @@ add(Kind, Group, Level, Count) :-
 %   Report what was counted, if the second of its kind is over; report all.
 
 reports_due :-
-    get_time(Now),
+    monotonic_time(Now),
     conclude_all(Now, 0).
 
 reports_end :-
@@ -116,11 +117,10 @@ conclude_all(Now, Grace) :-
     forall(( burst(Kind, Until), is_over(Until, Now, Grace) ),
            conclude(Kind, Until, Now)).
 
-%   The clock may have been set back.
-
-is_over(Until, Now, Grace) :-
-    ( Until+Grace =< Now ; Until > Now+1 ),
+is_over(_, inf, _) :-
     !.
+is_over(Until, Now, Grace) :-
+    Until+Grace =< Now.
 
 conclude(Kind, Until, Now) :-
     locked(taken(Kind, Until, Tallies)),
