@@ -223,9 +223,12 @@ posted(Process, I) :-
     atom_concat(address, I, To),
     sent(post, channel, channel(Process, To, first(-1), 0, bogus, x)).
 
+%   The peer loads the code of channels when the first post comes.
+
 seen_of(Process, Count) :-
     peer_do(p, aggregate_all(count,
-                             ( typhon_channel:seen(Key, _),
+                             ( catch(typhon_channel:seen(Key, _),
+                                     error(existence_error(_, _), _), fail),
                                sub_atom(Key, 0, _, _, Process) ),
                              Count0)),
     Count = Count0.
