@@ -11,12 +11,22 @@
 *Threading*: the main thread.
 */
 
+%   figures is semidet: fails, after all are printed, if a budget is exceeded.
+
 figures :-
     forall(member(Top, ['prolog/typhon', agents, payloads, experiments, app,
                         test, bench]),
            figures(Top)),
-    forall(budget(Name, Count, Most),
-           format('~w~t~48|~t~D~9+~t~D~12+~n', [Name, Count, Most])).
+    findall(Count-Most, budget_printed(Count, Most), Budgets),
+    forall(member(Count-Most, Budgets), Count =< Most).
+
+budget_printed(Count, Most) :-
+    budget(Name, Count, Most),
+    (   Count > Most
+    ->  Note = ' exceeded'
+    ;   Note = ''
+    ),
+    format('~w~t~48|~t~D~9+~t~D~12+~w~n', [Name, Count, Most, Note]).
 
 %   budget(-Name, -Count, -Most): what is counted, and how much is wanted.
 
