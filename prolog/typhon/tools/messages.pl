@@ -53,6 +53,10 @@ prolog:error_message(permission_error(start, host, Host)) -->
     [ 'There is a host ~p here already'-[Host] ].
 prolog:error_message(permission_error(start, page, Port)) -->
     [ 'There is a page already, at port ~w'-[Port] ].
+prolog:error_message(permission_error(overwrite, log, File)) -->
+    [ '~w is a log, and is not overwritten: name another file'-[File] ].
+prolog:error_message(existence_error(log_events, File)) -->
+    [ '~w has no events: it is not a log, or is empty'-[File] ].
 prolog:error_message(permission_error(carry, virtual_time, Option)) -->
     [ 'Virtual time is that of one process: ~p cannot be had with \c
        clock(virtual)'-[Option] ].
