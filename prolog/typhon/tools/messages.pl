@@ -37,7 +37,10 @@ prolog:error_message(existence_error(host, here)) -->
 prolog:error_message(existence_error(host, Host)) -->
     { elsewhere(Host, Address) },
     !,
-    [ 'Host ~w is not in this process'-[Address] ].
+    { address_parts(Address, Name, _) },
+    [ 'Host ~w is not in this process: call Goal in its process with \c
+       remote(~q, Goal), such as typhon:host_stop(~q)'-
+      [Address, Address, Name] ].
 prolog:error_message(existence_error(host, Host)) -->
     { address_parts(Host, Name, Endpoint) },
     !,

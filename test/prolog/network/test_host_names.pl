@@ -87,6 +87,20 @@ message_text(Error, Text) :-
     with_output_to(string(Text),
                    print_message_lines(current_output, '', Lines)).
 
+test(error_of_host_stop_names_a_goal_that_stops_the_host) :-
+    with_networks(1, stopped_as_the_error_says).
+
+stopped_as_the_error_says([Network]) :-
+    network_property(Network, hosts([_, Second])),
+    catch(host_stop(n2), Error, true),
+    message_text(Error, Text),
+    assertion(sub_string(Text, _, _, _, "such as typhon:host_stop(n2)")),
+    format(string(Way), "remote(~q, Goal)", [Second]),
+    assertion(sub_string(Text, _, _, _, Way)),
+    remote(Second, typhon:host_stop(n2)),
+    catch(remote(Second, true), error(Formal, _), true),
+    assertion(Formal == existence_error(host, Second)).
+
 test(bare_name_is_accepted_by_watch) :-
     with_networks(1, watched).
 
