@@ -7,6 +7,7 @@
 */
 
 :- module(study, []).
+:- use_module('../app/typhon/arguments', [arguments_complete/2]).
 :- use_module(engine/catalogue, [catalogue/1, studies_named/2]).
 :- use_module(engine/commands, [run_command/5]).
 :- use_module(engine/figures, [figures/2]).
@@ -77,8 +78,10 @@ opt_meta(out,  'DIRECTORY').
 main(Argv) :-
     set_stream(user_output, encoding(utf8)),
     set_stream(user_error, encoding(utf8)),
-    parsed(Argv, Names, Options),
-    catch(stopping_on_signals(command(Names, Options)),
+    module_property(study, file(Script)),
+    catch(( arguments_complete(Script, Argv),
+            parsed(Argv, Names, Options),
+            stopping_on_signals(command(Names, Options)) ),
           error(Formal, Context),
           ( print_message(error, error(Formal, Context)),
             halt(1) )).

@@ -13,6 +13,7 @@ minute.  The exit status is 0 if every criterion holds.
 *Threading*: the main thread.
 */
 
+:- use_module('../../app/typhon/arguments', [arguments_complete/2]).
 :- use_module(checks/course, [criterion/3, exercise/2, exercise_verdict/3]).
 :- use_module(checks/first_agent, []).
 :- use_module(checks/stigmergy, []).
@@ -53,6 +54,10 @@ main(['--inside', File]) :-
     check_here(File).
 main(Argv) :-
     set_stream(user_output, encoding(utf8)),
+    module_property(course_check, file(Script)),
+    catch(arguments_complete(Script, Argv), error(Formal, Context),
+          ( print_message(error, error(Formal, Context)),
+            halt(1) )),
     argv_options(Argv, Names, Options),
     hand_ins(Names, Options, Files),
     check_all(Files, Options).
