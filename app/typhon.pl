@@ -4,8 +4,8 @@
 
     swipl app/typhon.pl COMMAND ... [options]
 
-`--help` lists the commands, `COMMAND --help` the options of one.  Expected
-errors are one line and exit status 1.
+`--version` prints the version, `--help` lists the commands, `COMMAND --help`
+the options of one.  Expected errors are one line and exit status 1.
 
 The tables of commands.pl define the whole interface; run/3 has one clause
 for each command, and uses only predicates of library(typhon).
@@ -38,6 +38,7 @@ stopped waits for a message, which the handlers of SIGINT and SIGTERM send.
 :- use_module(library(lists), [member/2, nth0/3]).
 :- use_module(library(main), [argv_options/4, main/0]).
 :- use_module(library(option), [option/2, option/3]).
+:- use_module(library(readutil), [read_file_to_terms/3]).
 
 :- initialization(main, main).
 
@@ -85,6 +86,13 @@ main(Argv) :-
 main(_) :-
     halt(1).
 
+dispatch(['--version']) :-
+    !,
+    module_property(typhon_app, file(App)),
+    absolute_file_name('../pack.pl', Pack, [relative_to(App)]),
+    read_file_to_terms(Pack, Terms, []),
+    memberchk(version(Version), Terms),
+    print_line(Version).
 dispatch([Command|Argv]) :-
     command(Command, _, Positional, _),
     !,

@@ -420,6 +420,13 @@ picture(Dir) :-
     typhon_lines([picture, File, Svg, '--from', 2, '--to', 3], []),
     typhon_error([picture, File, Svg, '--from', 70], "no events").
 
+test(version_is_that_of_the_pack) :-
+    project_file('pack.pl', Pack),
+    read_file_to_string(Pack, Text, []),
+    typhon_lines(['--version'], [Version]),
+    format(string(Fact), "version('~s').", [Version]),
+    assertion(sub_string(Text, _, _, _, Fact)).
+
 :- end_tests(app_log).
 
 :- begin_tests(app_diagnose).
