@@ -191,6 +191,10 @@ resting(_, Held, _, ready, Goals) :-
     !.
 resting(Status, Goals, _, Status, Goals).
 
+%   0.1.0 noted twice that an agent is kept because it is faulty.
+
+:- durable(stays, _, 0, _, fail, true).
+
 %   The callers of saved orders are gone, so no answer is sent.
 
 :- durable(order, Id, 0, Order, order_item(Id, Order), agent_order(Id, Order)).

@@ -543,6 +543,11 @@ test(no_such_file, error(existence_error(source_sink, _))) :-
 test(unknown_option,
      error(domain_error(network_load_option, foo))) :-
     network_load('/no/such/file', _, [foo]).
+test(note_of_a_faulty_agent_in_the_form_of_0_1_0_is_read) :-
+    typhon_snapshot:process_restore(real, [item(stays, 'x@y', 0, '')]).
+test(item_that_no_table_takes_is_an_error,
+     error(domain_error(saved_item, item(moves, 'x@y', 0, '')))) :-
+    typhon_snapshot:process_restore(real, [item(moves, 'x@y', 0, '')]).
 test(damaged, [ forall(member(How-Why, [ another-no_network,
                                          half-cut_short,
                                          tail-cut_short,

@@ -31,6 +31,7 @@ part_joins(durable,program,'options/snapshot').
 part_joins(durable,seen,'options/journal').
 part_joins(durable,stands,'options/snapshot').
 part_joins(durable,state,'options/journal').
+part_joins(durable,stays,'options/snapshot').
 part_joins(durable,tuple,'options/journal').
 part_joins(durable,turns,'options/concurrency').
 part_joins(environment,'TYPHON_TLS','options/tls').
