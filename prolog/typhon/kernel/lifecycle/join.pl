@@ -26,7 +26,8 @@ has the outcome.
 %
 %   Wait until an agent has ended, wherever it is, for Timeout seconds (a
 %   number or `inf`).  Outcome is `done`, `failed`, raised(Error), `disposed`
-%   or `timeout`.
+%   or `timeout`; lost(Host), after the Timeout, if the process of Host, where
+%   the agent was, is known to be gone.
 %
 %   Agents is an agent, or family(Agent): Agent, its clones, and theirs. Then this
 %   waits until the last of them has ended.  Outcome is then a list of pairs
@@ -155,7 +156,7 @@ agent_result(Agent, Term, Timeout) :-
     wait_seconds(Timeout, Seconds),
     agent_once_named(Agent, Id),
     agent_join(Id, Outcome, Seconds),
-    Outcome \== timeout,
+    \+ memberchk(Outcome, [timeout, lost(_)]),
     results_of(Id, Outcome, result, Results),
     (   last(Results, result(Result))
     ->  Term = Result

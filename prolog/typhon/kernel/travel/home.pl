@@ -20,7 +20,8 @@
 :- use_module('../base/durable', [durable/5, durable/6, durable_assertz/1]).
 :- use_module('../base/durable_changes',
               [durable_drop/3, durable_drop_all/2, durable_put/4]).
-:- use_module('../wire', [endpoint_address/1, endpoint_reply/2]).
+:- use_module('../wire',
+              [endpoint_address/1, endpoint_gone/1, endpoint_reply/2]).
 :- use_module('../host', [address_parts/3, alarm_in/3]).
 :- use_module('../agent', [agent_home_endpoint/2]).
 :- use_module(outcomes, [results_keep/2]).
@@ -320,9 +321,19 @@ wait_or_answer(_, _, _, unknown).
 typhon_scheduler:fire(Id, join(Token)) :-
     !,
     (   retract(waiter(Id, Token, Asker))
-    ->  send_outcome(Asker, timeout)
+    ->  at_timeout(Id, Outcome),
+        send_outcome(Asker, Outcome)
     ;   true
     ).
+
+%   Before the timeout the news of a hop from there may be under way.
+
+at_timeout(Id, lost(Host)) :-
+    born(Id, Host, _, _),
+    address_parts(Host, _, Endpoint),
+    endpoint_gone(Endpoint),
+    !.
+at_timeout(_, timeout).
 
 typhon_scheduler:over(Id, join(Token)) :-
     \+ waiter(Id, Token, _).

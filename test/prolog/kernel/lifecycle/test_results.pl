@@ -34,6 +34,20 @@ restored(X, Dir) :-
 
 :- begin_tests(results).
 
+test(agent_whose_process_is_gone_is_lost, Outcome == lost(B)) :-
+    with_peers([a, b],
+               ( peer_host(b, B),
+                 peer_do(a, agent_create(clauses([ (:- agent(guest, [])),
+                                                   (main :- move(B)),
+                                                   on_message(_, _) ]),
+                                         Id, [])),
+                 wait_until(peer_do(b, agent_property(Id, state(resident))),
+                            10),
+                 wait_until(peer_do(a, typhon_home:born(Id, B, _, _)), 10),
+                 peer_do(a, agent_join(Id, timeout, 0)),
+                 peer_kill(b),
+                 wait_until(( peer_do(a, agent_join(Id, Outcome, 0.5)),
+                              Outcome \== timeout ), 30) )).
 test(given_result, X == 42) :-
     virtually(( create([(main :- X0 is 6*7, result(X0))], A),
                 agent_result(A, X, 10) )).
