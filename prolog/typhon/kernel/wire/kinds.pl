@@ -51,6 +51,7 @@ and count, number, positive: numbers.
 *Threading*: any thread; no state.
 */
 
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [append/3]).
 
 :- multifile
@@ -120,12 +121,7 @@ is_a(Pattern, Term) :-
     compound(Term),
     compound_name_arguments(Pattern, Name, Types),
     compound_name_arguments(Term, Name, Args),
-    all_of_types(Types, Args).
-
-all_of_types([], []).
-all_of_types([Type|Types], [Term|Terms]) :-
-    is_a(Type, Term),
-    all_of_types(Types, Terms).
+    maplist(is_a, Types, Args).
 
 all_are(_, term) :-
     !.

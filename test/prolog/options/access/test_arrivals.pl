@@ -39,6 +39,11 @@ test(child_of_a_network_obeys_its_parent_only,
 test(channels_are_of_the_process_that_posts_and_few,
      Others-Own == 0-16) :-
     no_leaks(channels(Others, Own)).
+test(forged_traces_and_events_are_not_shown, Shown == []) :-
+    no_leaks(forged_events(Shown)).
+test(posts_to_others_are_not_acknowledged, Left == [n(1)]) :-
+    no_leaks(with_peers([p-[host([])]],
+                        with_host_here([], acknowledged(Left)))).
 
 :- end_tests(arrivals).
 
@@ -232,6 +237,47 @@ seen_of(Process, Count) :-
                                sub_atom(Key, 0, _, _, Process) ),
                              Count0)),
     Count = Count0.
+
+                /*******************************
+                *      WHAT WAS NOT ASKED FOR  *
+                *******************************/
+
+%   The process `p` watches its host and traces an agent of its own, so that the
+%   code is loaded; this one sends events to that watch, and traces of another
+%   agent.
+
+forged_events(Shown) :-
+    with_peers([p-[host([])]],
+               with_host_here([], forged_events_there(Shown))).
+
+forged_events_there(Shown) :-
+    waiting_agent(Agent),
+    peer_do(p, agent_trace(Agent, [messages])),
+    peer_do(p, assertz(( test_seen:note(E) :- assertz(test_seen:noted(E)) ))),
+    peer_do(p, watch([p], test_seen:note, Watch)),
+    peer_do(p, remote(p, leave(real))),
+    Event = event(0, forged, none, log(forged)),
+    sent(request, watched, events(Watch, [Event])),
+    sent(request, trace, traced(forged, forged, hop)),
+    peer_do(p, unwatch(Watch)),         % delivers earlier events
+    peer_do(p, findall(E, test_seen:noted(E), Events)),
+    assertion(memberchk(event(_, _, _, leave(real)), Events)),
+    peer_messages(p, Lines),
+    findall(Line, ( member(Line, Lines), sub_atom(Line, _, _, _, forged) ),
+            Printed),
+    findall(Event, member(Event, Events), Forged),
+    append(Forged, Printed, Shown).
+
+%   `p` keeps a post for another process; this process says that it has come.
+
+acknowledged(Left) :-
+    peer_do(p, use_module(library(typhon/options/journal/channel), [])),
+    peer_do(p, assertz(typhon_channel:out('10.0.0.1:1', 1, note, n(1)))),
+    sent(post, channel, had('10.0.0.1:1', 5)),
+    sent(post, channel, again('10.0.0.1:1')),
+    sent(post, channel, channel(x, x, first(-1), 0, bogus, x)),
+    peer_do(p, findall(Term, typhon_channel:out('10.0.0.1:1', _, _, Term),
+                       Left)).
 
 node_answers(Child, Term, Answer) :-
     peer_do(p, catch(typhon_wire:endpoint_call(Child, node, Term,
