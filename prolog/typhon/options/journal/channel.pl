@@ -314,10 +314,10 @@ typhon_endpoint:received(channel,
                          channel(Process, To, Before, N, Kind, Term), Peer) :-
     endpoint_peer(Peer, process(Process)),
     atomic_list_concat([Process, To], ' ', Key),
-    may_open(Process, Key),
-    !,
     with_mutex(typhon_channel_in,
-               take_once(Key, Before, N, Kind, Term, Peer, How)),
+               ( may_open(Process, Key),
+                 take_once(Key, Before, N, Kind, Term, Peer, How) )),
+    !,
     answer(How, Key, To, Peer).
 typhon_endpoint:received(channel, channel(Process, _, _, _, _, _), Peer) :-
     debug(typhon(mail), 'post of ~w from ~w is dropped', [Process, Peer]).

@@ -31,6 +31,8 @@ test(unknown_or_malformed_terms_are_refused_and_audited) :-
     with_tmp_dir(by_cookie(malformed)).
 test(peer_without_rights_changes_nothing) :-
     with_tmp_dir(by_cookie(unchanged)).
+test(messages_for_agents_elsewhere_need_the_right_on_all_hosts) :-
+    with_tmp_dir(by_cookie(forwarded)).
 test(first_rule_that_matches_applies) :-
     with_tmp_dir(by_cookie(first_rule)).
 test(child_of_a_network_obeys_its_parent_only,
@@ -347,6 +349,14 @@ state(Agent, [Status,Links,Facts,Whereabouts]) :-
     peer_do(p, host_property(p, neighbours(Links))),
     peer_do(p, findall(Fact, remote(p, sense(Fact)), Facts)),
     peer_do(p, agent_property(Agent, host(Whereabouts))).
+
+%   Otherwise a host would forward what a peer may not send itself.
+
+forwarded(_, File) :-
+    Ghost = 'ghost.1.0@elsewhere@127.0.0.1:1',
+    sent(post, message, message(Ghost, [mail('127.0.0.1:1', user, x)], 3)),
+    audited(File, Whats),
+    assertion(Whats == [refused(messages)]).
 
 first_rule(_, File) :-
     peer_do(p, host_change(p, peer([cookie-[watch], cookie-all]))),
