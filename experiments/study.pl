@@ -10,7 +10,7 @@
 :- use_module('../app/typhon/arguments', [arguments_complete/2]).
 :- use_module(engine/catalogue, [catalogue/1, studies_named/2]).
 :- use_module(engine/commands, [run_command/5]).
-:- use_module(engine/figures, [figures/2]).
+:- use_module(engine/figures, [figures/3]).
 :- use_module(engine/plan,
               [ planned/4, planned_case/4, planned_real/3, plans/3,
                 runs_directory/2 ]).
@@ -134,14 +134,18 @@ perform(Plans, Options) :-
 perform(Plans, Options) :-
     option(collect(true), Options),
     !,
-    figures(Plans, Options).
+    figures(Plans, Options, Missing),
+    halt_unless_none(Missing).
 perform(Plans, Options) :-
     findall(Run, planned(Plans, Options, _, Run), Runs),
     runs_directory(Options, Root),
     runs_make(Runs, Root, Options, Failed),
     make_real(Plans, Root, Options, RealFailed),
-    figures(Plans, Options),
-    (   Failed + RealFailed =:= 0
+    figures(Plans, Options, Missing),
+    halt_unless_none(Failed + Missing + RealFailed).
+
+halt_unless_none(Count) :-
+    (   Count =:= 0
     ->  true
     ;   halt(1)
     ).

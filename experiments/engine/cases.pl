@@ -1,15 +1,17 @@
 :- module(study_cases,
           [ study_cases/3,              % +Study, +Given, -Cases
+            expected_cases/3,           % +Study, +Given, -Cases
             study_parameter/2,          % +Study, ?Name
             parameters/3,               % +Study, +Given, -Parameters
             varied/3,                   % +Study, +Cases, -Names
             case_name/3                 % +Study, +Case, -Name
           ]).
 :- use_module('../../prolog/typhon/kernel/base/names', [names_proposed/3]).
-:- use_module(library(apply), [exclude/3, foldl/4]).
+:- use_module(library(apply), [exclude/3, foldl/4, maplist/3]).
 :- use_module(library(error), [domain_error/2]).
 :- use_module(library(lists), 
-              [append/3, last/2, list_to_set/2, member/2, memberchk/2]).
+              [append/3, last/2, list_to_set/2, member/2, memberchk/2,
+               subtract/3]).
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module(sampling, [is_design/1, sampled_points/3]).
 
@@ -43,6 +45,26 @@ study_cases(Study, Given, Cases) :-
     findall(Name, member(parameter(Name, _, derived), Parameters), Derived),
     findall(Case, study_case(Study, Lists, Points, Derived, Case), Cases0),
     list_to_set(Cases0, Cases).
+
+%!  expected_cases(+Study, +Given:list(pair), -Cases:list(dict)) is det.
+%
+%   The cases that the claims are about: those of Given, and those of the file
+%   from which Given selects.  Values that are not of the file are other
+%   conditions, under which the claims are tested.
+
+expected_cases(Study, Given0, Cases) :-
+    parameters(Study, [], Parameters),
+    maplist(selected_from(Parameters), Given0, Given),
+    study_cases(Study, Given, Cases).
+
+selected_from(Parameters, Name-Value, Name-Values) :-
+    memberchk(parameter(Name, Own, varied), Parameters),
+    values(given, Value, Chosen),
+    subtract(Chosen, Own, Others),
+    Others \== Chosen,
+    !,
+    append(Own, Others, Values).
+selected_from(_, Given, Given).
 
 must_have(Study, Name) :-
     study_parameter(Study, Name),

@@ -1,6 +1,6 @@
 :- module(study_claims,
           [ claim_holds/2,              % :Test, +Points
-            claim_known/2,              % :Test, +Points
+            claim_verdict/3,            % :Test, +Points, -Verdict
             claim_shape/2,              % :Test, -Problem
             claim_name/2,               % :Test, -Name
             claim_value/2,              % :Test, -NameValue
@@ -33,39 +33,45 @@ case.  Tests are
   - (A, B), (A ; B), \+ A
   - holds(Goal): call(Goal, Points) in the study, for all other tests
 
-A test is unknown if no point has the values that it compares. Then neither
-the test nor its negation holds.
+A test holds, fails, or is unknown: it needs a run that was not made (the
+point Case-missing), or no point has the values that it compares. Then neither
+the test nor its negation holds. A failing test fails whatever the missing runs
+may give; a holding test holds whatever they may give.
 
 *Threading*: pure.
 */
 
 :- meta_predicate
     claim_holds(:, +),
-    claim_known(:, +),
+    claim_verdict(:, +, -),
     claim_shape(:, -),
     claim_name(:, -),
     claim_value(:, -).
 
 %!  claim_holds(:Test, +Points:list(pair)) is semidet.
 
-claim_holds(M:Test, Points) :-
-    context(M:Points, Context),
-    verdict(Test, M, Context, true).
+claim_holds(Test, Points) :-
+    claim_verdict(Test, Points, true).
 
-%!  claim_known(:Test, +Points:list(pair)) is semidet.
+%!  claim_verdict(:Test, +Points:list(pair), -Verdict) is det.
 %
-%   True if there are values to compare, whether Test holds or not.
+%   Verdict is `true`, `false` or `unknown`.
 
-claim_known(M:Test, Points) :-
+claim_verdict(M:Test, Points, Verdict) :-
     context(M:Points, Context),
-    verdict(Test, M, Context, _).
+    (   verdict(Test, M, Context, Truth)
+    ->  Verdict = Truth
+    ;   Verdict = unknown
+    ).
 
-%   verdict(+Test, +Module, +Context, -Truth) is semidet: `true` or `false`;
-%   fails if Test is unknown.
+%   verdict(+Test, +Module, +Context, -Truth) is semidet: `true`, `false`, or
+%   `unknown` because a run is missing; fails if there is nothing to compare.
 
 verdict((A, B), M, Context, Truth) :-
     !,
-    verdicts([A, B], M, Context, Truths),
+    findall(T, ( member(Test, [A, B]),
+                 ( verdict(Test, M, Context, T0) -> T = T0 ; T = none ) ),
+            Truths),
     all_of(Truths, Truth).
 verdict((A ; B), M, Context, Truth) :-
     !,
@@ -81,35 +87,36 @@ verdict(at(Where, Test), M, Context, Truth) :-
 verdict(some(Test), M, context(Points, All, Follows), Truth) :-
     !,
     findall(T, ( member(Point, Points),
-                 verdict(Test, M, context([Point], All, Follows), T) ),
-            [First|Truths]),
-    truth(memberchk(true, [First|Truths]), Truth).
+                 verdict(\+ Test, M, context([Point], All, Follows), T) ),
+            Truths),
+    all_of(Truths, Truth0),
+    opposite(Truth0, Truth).
 verdict(holds(Goal), M, context(Points, _, _), Truth) :-
     !,
     Points = [_|_],
-    truth(call(M:Goal, Points), Truth).
+    (   memberchk(_-missing, Points)
+    ->  Truth = unknown
+    ;   truth(call(M:Goal, Points), Truth)
+    ).
 verdict(Test, _, Context, Truth) :-
-    findall(Relation-Values, related(Test, Context, Relation, Values),
-            [First|Others]),
-    truth(forall(member(Relation-Values, [First|Others]),
-                 in_relation(Relation, Values)),
-          Truth).
+    findall(T, ( related(Test, Context, Relation, Values),
+                 in_relation(Relation, Values, T) ),
+            Truths),
+    all_of(Truths, Truth).
 
-verdicts([], _, _, []).
-verdicts([Test|Tests], M, Context, [Truth|Truths]) :-
-    (   verdict(Test, M, Context, Truth0)
-    ->  Truth = Truth0
-    ;   Truth = unknown
-    ),
-    verdicts(Tests, M, Context, Truths).
+%   all_of(+Truths, -Truth) is semidet: fails if some are `none`, or there are
+%   no Truths, unless the others decide.
 
-all_of(Truths, false) :-
-    memberchk(false, Truths),
+all_of(Truths, Truth) :-
+    member(Truth, [false, unknown]),
+    memberchk(Truth, Truths),
     !.
-all_of([true, true], true).
+all_of([First|Truths], true) :-
+    \+ memberchk(none, [First|Truths]).
 
 opposite(true, false).
 opposite(false, true).
+opposite(unknown, unknown).
 
 :- meta_predicate truth(0, -).
 
@@ -157,9 +164,15 @@ along(P, E, Context, Values) :-
     findall(Value, ( member(_-Point, Line), value(E, Point, Context, Value) ),
             Values).
 
-in_relation(near, [A, B, Within]) :- !, abs(A - B) =< Within.
-in_relation(between, [A, Least, Most]) :- !, Least =< A, A =< Most.
-in_relation(Order, [A, B]) :- call(Order, A, B).
+in_relation(_, Values, unknown) :-
+    memberchk(missing, Values),
+    !.
+in_relation(Relation, Values, Truth) :-
+    truth(stand_in(Relation, Values), Truth).
+
+stand_in(near, [A, B, Within]) :- !, abs(A - B) =< Within.
+stand_in(between, [A, Least, Most]) :- !, Least =< A, A =< Most.
+stand_in(Order, [A, B]) :- call(Order, A, B).
 
                 /*******************************
                 *             SHAPE            *

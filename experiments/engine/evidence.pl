@@ -4,7 +4,7 @@
             evidence_text/2             % +Comparisons, -Text
           ]).
 :- use_module(library(apply), [exclude/3, maplist/4]).
-:- use_module(library(lists), [append/3, last/2, max_list/2, member/2]).
+:- use_module(library(lists), [append/3, last/2, max_list/2, member/2, memberchk/2]).
 :- use_module(library(pairs), [group_pairs_by_key/2, pairs_keys_values/3]).
 :- use_module(claims, [connective/2, leaf/4]).
 :- use_module(expressions, [context/2, line/3, selected/3, value/4]).
@@ -27,15 +27,15 @@ no comparisons.
 
 %!  claim_comparisons(:Test, +OfSeeds:list, -Comparisons:list) is det.
 %
-%   OfSeeds are the points of each seed.  Comparisons are comparison(A, B, E,
-%   Xs, Ys, U, P, Adjusted): E, or one of its sides, has the values Xs in the
-%   case A, and Ys in B; each for at least four seeds.
+%   OfSeeds are the points of each seed; those in which a compared run is
+%   missing do not count.  Comparisons are comparison(A, B, E, Xs, Ys, U, P,
+%   Adjusted): E, or one of its sides, has the values Xs in the case A, and Ys
+%   in B; each for at least four seeds.
 
 claim_comparisons(M:Test, OfSeeds, Comparisons) :-
-    findall(Key-(X-Y),
-            ( member(Points, OfSeeds),
-              context(M:Points, Context),
-              compared(Test, Context, Key, X, Y) ),
+    findall(Value, ( member(Points, OfSeeds),
+                     seed_values(M:Test, Points, OfSeed),
+                     member(Value, OfSeed) ),
             Values0),
     keysort(Values0, Values),
     group_pairs_by_key(Values, Groups),
@@ -50,6 +50,13 @@ claim_comparisons(M:Test, OfSeeds, Comparisons) :-
     findall(P, member(_-(_-P), Tested), Ps),
     holm(Ps, Adjusted),
     maplist(comparison, Tested, Adjusted, Comparisons).
+
+%   seed_values(:Test, +Points, -Values) is semidet: fails if a run is missing.
+
+seed_values(M:Test, Points, Values) :-
+    context(M:Points, Context),
+    findall(Key-(X-Y), compared(Test, Context, Key, X, Y), Values),
+    \+ ( member(_-(X-Y), Values), memberchk(missing, [X,Y]) ).
 
 %   at/2 produces the same pair from several cases.
 

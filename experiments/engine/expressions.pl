@@ -2,7 +2,7 @@
           [ context/2,                  % :Points, -Context
             selected/3,                 % +Where, +Context, -Selected
             line/3,                     % +P, +Context, -Line
-            value/4,                    % +E, +Point, +Context, -Number
+            value/4,                    % +E, +Point, +Context, -Value
             of_all_points/1,            % +E
             aggregate/3,                % ?Term, -Function, -E
             on_line/4                   % ?Term, -Function, -E, -P
@@ -10,8 +10,8 @@
 :- use_module(library(apply),
               [exclude/3, include/3, maplist/2, maplist/3, partition/4]).
 :- use_module(library(lists),
-              [ last/2, max_list/2, member/2, memberchk/2, min_list/2,
-                sum_list/2 ]).
+              [ append/3, last/2, max_list/2, member/2, memberchk/2,
+                min_list/2, sum_list/2 ]).
 :- use_module(library(pairs), 
               [group_pairs_by_key/2, pairs_keys_values/3, pairs_values/2]).
 :- use_module(numbers, [median/2]).
@@ -29,10 +29,13 @@ over expressions, and
   - rise(E, along(P)), first(E, along(P)), last(E, along(P)): on the line
     through this point: the points that differ in P alone
 
-A point is Case-Measures, two dicts.  A context is context(Points, All,
-Follows): the points of the test, all points that at/2 may select from, and
-the names of derived parameters: cases that differ in one parameter may also
-differ in these.
+A point is Case-Measures, two dicts, or Case-missing if the run of this case
+was not made.  A context is context(Points, All, Follows): the points of the
+test, all points that at/2 may select from, and the names of derived
+parameters: cases that differ in one parameter may also differ in these.
+
+An expression has a number as its value, or none, or `missing`: it needs a
+measure of a run that was not made.
 
 *Threading*: pure.
 */
@@ -110,10 +113,10 @@ line(P, context(Points, _, Follows), Line) :-
 is_number(Value-_) :-
     number(Value).
 
-%!  value(+E, +Point, +Context, -Number) is semidet.
+%!  value(+E, +Point, +Context, -Value) is semidet.
 %
-%   The expression E has the value Number at Point.  Fails if it has none,
-%   for example after a division by zero.
+%   The expression E has the Value, a number or `missing`, at Point.  Fails if
+%   it has none, for example after a division by zero.
 
 value(Number, _, _, Value) :-
     number(Number),
@@ -122,11 +125,14 @@ value(Number, _, _, Value) :-
 value(Name, Case-Measures, _, Value) :-
     atom(Name),
     !,
-    (   get_dict(Name, Measures, Value)
-    ->  true
+    (   is_dict(Measures),
+        get_dict(Name, Measures, Value)
+    ->  number(Value)
     ;   get_dict(Name, Case, Value)
-    ),
-    number(Value).
+    ->  number(Value)
+    ;   Measures == missing,
+        Value = missing
+    ).
 value(at(Where, E), Case-_, context(_, All, Follows), Value) :-
     !,
     include(is_where(Where), All, Points),
@@ -136,8 +142,9 @@ value(Aggregate, _, Context, Value) :-
     aggregate(Aggregate, Function, E),
     !,
     Context = context(Points, _, _),
+    Points = [_|_],
     values(E, Points, Context, Values),
-    call(Function, Values, Value).
+    of_known(Values, Function, Value).
 value(correlation(E1, E2), _, Context, Value) :-
     !,
     Context = context(Points, _, _),
@@ -147,7 +154,11 @@ value(correlation(E1, E2), _, Context, Value) :-
               value(E2, Point, Context, Y) ),
             Pairs),
     pairs_keys_values(Pairs, Xs, Ys),
-    rank_correlation(Xs, Ys, Value).
+    append(Xs, Ys, All),
+    (   memberchk(missing, All)
+    ->  Value = missing
+    ;   rank_correlation(Xs, Ys, Value)
+    ).
 value(OnLine, Case-_, Context, Value) :-
     on_line(OnLine, Function, E, P),
     !,
@@ -161,6 +172,21 @@ value(Term, Point, Context, Value) :-
     compound(Term),
     Term =.. [Function|Es],
     maplist(value_at(Point, Context), Es, Values),
+    of_known(Values, result(Function), Value).
+
+%   of_known(+Values, +Goal, -Value): call(Goal, Values, Value), if none of
+%   Values is missing.
+
+:- meta_predicate of_known(+, 2, -).
+
+of_known(Values, _, Value) :-
+    memberchk(missing, Values),
+    !,
+    Value = missing.
+of_known(Values, Goal, Value) :-
+    call(Goal, Values, Value).
+
+result(Function, Values, Value) :-
     Expression =.. [Function|Values],
     catch(Value is Expression, error(evaluation_error(_), _), fail).
 
@@ -190,8 +216,8 @@ values(E, Points, Context, Values) :-
     findall(V, ( member(Point, Points), value(E, Point, Context, V) ), Values).
 
 %   elsewhere(+Where, +Case, +Points, +Follows, -Point): Point is the point of
-%   the case that differs by Where.  If it is missing it has no measures, only
-%   aggregates.
+%   the case that differs by Where.  If there is no such case, Point has no
+%   measures, only aggregates.
 
 elsewhere(Where, Case, Points, Follows, Point) :-
     dict_create(Other, case, Where),
@@ -200,7 +226,8 @@ elsewhere(Where, Case, Points, Follows, Point) :-
     (   member(Case1-Measures, Points),
         key(Free, Case1, Key)
     ->  Point = Case1-Measures
-    ;   Point = Case-_{}
+    ;   dict_pairs(Case2, case, Key),
+        Point = Case2-_{}
     ).
 
 is_said(Where, Name) :-
@@ -229,6 +256,6 @@ sum([V|Values], Sum) :-
 
 rise([First|Values], Rise) :-
     last(Values, Last),
-    Rise is Last - First.
+    of_known([Last,First], result(-), Rise).
 
 first([Value|_], Value).

@@ -1,10 +1,10 @@
 :- module(study_figures,
-          [ figures/2                   % +Plans, +Options
+          [ figures/3                   % +Plans, +Options, -Missing
           ]).
-:- use_module(library(apply), [exclude/3]).
+:- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(option), [option/2]).
 :- use_module(library(solution_sequences), [distinct/2]).
 :- use_module(cases, [study_parameter/2]).
@@ -20,7 +20,7 @@
 :- use_module(report,
               [ claims_sentence/2, print_means/4, print_outcome/3,
                 shown_measures/3 ]).
-:- use_module(store, [run_done/3, run_result/3]).
+:- use_module(store, [run_result/3]).
 :- use_module(studies, [study_call/2, study_name/3, study_title/3]).
 :- use_module(tables, [outcome_save/4]).
 
@@ -32,12 +32,12 @@
 :- multifile
     prolog:message//1.
 
-%!  figures(+Plans, +Options) is det.
+%!  figures(+Plans, +Options, -Missing:integer) is det.
 %
 %   Prints the results of the existing runs of Plans, and writes them below the
-%   directory of out_directory/2.
+%   directory of out_directory/2.  Missing is the number of missing runs.
 
-figures(Plans, Options) :-
+figures(Plans, Options, Missing) :-
     out_directory(Options, Out),
     make_directory_path(Out),
     findall(Shown,
@@ -49,26 +49,28 @@ figures(Plans, Options) :-
     claims_sentence(Outcomes, Sentence),
     directory_file_path(Out, 'index.html', Page),
     format('~n~w~nTables, pictures, claims: ~w~n', [Sentence, Page]),
-    report_missing(Plans, Options).
+    aggregate_all(sum(Count), ( member(Outcome, Outcomes),
+                                Count = Outcome.missing ), Missing),
+    report_missing(Missing, Plans, Options).
 
-report_missing(Plans, Options) :-
-    runs_directory(Options, Root),
-    findall(Run, planned(Plans, Options, _, Run), Runs),
-    exclude(run_done(Root, false), Runs, Missing),
-    length(Runs, Count),
-    length(Missing, MissingCount),
-    (   Missing == []
-    ->  true
-    ;   format('~d of ~d runs are missing~n', [MissingCount, Count])
-    ).
+report_missing(0, _, _) :-
+    !.
+report_missing(Missing, Plans, Options) :-
+    aggregate_all(count, planned(Plans, Options, _, _), Count),
+    format('~d of ~d runs are missing~n', [Missing, Count]).
 
 show(plan(Study, Given, Cases), Options, Out,
      shown(Study, Outcome, Again, Directory)) :-
     found(Study, Cases, Options, Runs),
-    outcome(Study, Cases, Runs, Outcome0),
+    findall(Seed, planned_seed(Options, Seed), Seeds),
+    outcome(plan(Study, Given, Cases), Seeds, Runs, Outcome0),
     checks(Study, Cases, Runs, Outcome0.rows, Options, Checks),
     Outcome = Outcome0.put(_{given:Given, checks:Checks}),
-    save(Study, Outcome, Runs, Out),
+    findall(run(Case, Seed, measures{}),
+            ( member(Case, Cases), member(Seed, Seeds),
+              \+ ( member(run(Case1, Seed, _), Runs), Case1 == Case ) ),
+            NotMade),
+    save(Study, Outcome, Runs, NotMade, Out),
     print_outcome(user_output, Study, Outcome),
     (   option(means(true), Options)
     ->  print_means(user_output, Study, Outcome, Runs)
@@ -89,13 +91,21 @@ found(Study, Cases, Options, Runs) :-
               run_result(Root, run(Study, Case, Seed), Measures) ),
             Runs).
 
-save(Study, Outcome, Runs, Out) :-
+save(Study, Outcome, Runs, NotMade, Out) :-
     study_title(Study, Name, _),
     directory_file_path(Out, Name, Directory),
     make_directory_path(Directory),
     outcome_save(Study, Outcome, Runs, Directory),
     forall(( Runs = [_|_], study_call(Study, plot(Plot, Title, Picture)) ),
-           picture(Study, plot(Plot, Title, Picture), Runs, Directory)).
+           ( in_picture(Picture, Runs, NotMade, Shown),
+             picture(Study, plot(Plot, Title, Picture), Shown, Directory) )).
+
+%   Lines have a gap where a run without measures is.
+
+in_picture(lines(_), Runs, NotMade, Shown) :-
+    !,
+    append(Runs, NotMade, Shown).
+in_picture(_, Runs, _, Runs).
 
 %   checks(+Study, +Cases, +Runs, +Rows, +Options, -Checks): compares the case
 %   that also has runs on real sockets.

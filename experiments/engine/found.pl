@@ -51,6 +51,7 @@ part(E, Context, Names, Part) :-
     findall(Case-Value,
             ( member(Case0-Measures, Points),
               value(E, Case0-Measures, Context, Value),
+              number(Value),
               case_of(E, Case0, Case) ),
             Values0),
     list_to_set(Values0, Values),

@@ -3,14 +3,14 @@
                                         % +Directory, -Picture
             matching/3                  % +Where, +Runs, -Matching
           ]).
-:- use_module(library(apply), [maplist/3]).
+:- use_module(library(apply), [exclude/3, maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists),
               [ append/2, append/3, last/2, list_to_set/2, max_list/2, member/2,
-                memberchk/2, nth0/3, nth1/3,
+                memberchk/2, min_list/2, nth0/3, nth1/3,
                 selectchk/3, subtract/3 ]).
 :- use_module(library(option), [option/2, option/3]).
-:- use_module(library(pairs), [pairs_keys/2]).
+:- use_module(library(pairs), [group_pairs_by_key/2, pairs_keys/2]).
 :- use_module(cases, [parameters/3, varied/3]).
 :- use_module(gnuplot, [colour/2, plain_text/2, save_columns/2]).
 :- use_module(numbers, [spread/4]).
@@ -31,7 +31,7 @@ A panel for each measure, a line for each value of a parameter.
 lines_picture(Study, Name-Title, Options, Runs0, Directory, Height-Variables) :-
     option(where(Where), Options, []),
     matching(Where, Runs0, Runs),
-    Runs = [_|_],
+    once(( member(run(_, _, Ms), Runs), Ms \== measures{} )),
     option(x(X), Options),
     option(y(Y), Options),
     ( is_list(Y) -> Measures = Y ; Measures = [Y] ),
@@ -187,11 +187,14 @@ save_blocks(Directory, Name, Suffix, Measures, Lines, Row) :-
 block([], [['NaN', 'NaN', 'NaN', 'NaN'], gap, gap]) :- !.
 block(Rows0, Rows) :- append([Rows0, [gap, gap]], Rows).
 
-median_row(shown(Runs, X, Positions), Measure, Where,
-           [At, Median, Least, Most]) :-
+median_row(shown(Runs, X, Positions), Measure, Where, Row) :-
     member(At-Value, Positions),
-    findall(Number, value_at(Runs, [X=Value|Where], Measure, Number), Numbers),
-    spread(Numbers, Least, Median, Most).
+    matching([X=Value|Where], Runs, [First|Matching]),
+    findall(Number, value_at([First|Matching], [], Measure, Number), Numbers),
+    (   spread(Numbers, Least, Median, Most)
+    ->  Row = [At, Median, Least, Most]
+    ;   Row = [At, 'NaN', 'NaN', 'NaN']         % not joined across it
+    ).
 
 run_row(shown(Runs, X, Positions), Measure, Where, [At, Number]) :-
     member(At-Value, Positions),
@@ -349,16 +352,30 @@ tick(Label, At, Tick) :-
 %   Subtitle also names the parameters over which the plot aggregates.
 
 subtitle(Study, Options, Runs, X, Subtitle) :-
-    findall(Seed, member(run(_, Seed, _), Runs), Seeds0),
-    sort(Seeds0, Seeds),
-    length(Seeds, Count),
-    ( Count =:= 1 -> Word = run ; Word = runs ),
-    format(atom(Counted), '~d ~w of each: medians, least and greatest',
-           [Count, Word]),
+    run_counts(Runs, Least, Most),
+    ( Least =:= Most -> From = '' ; format(atom(From), '~d to ', [Least]) ),
+    ( Most =:= 1 -> Word = run ; Word = runs ),
+    format(atom(Counted), '~w~d ~w of each: medians, least and greatest',
+           [From, Most, Word]),
     findall(Text, option(subtitle(Text), Options), Said),
     together(Study, Options, Runs, X, Together),
     append([Said, [Counted], Together], Parts),
     atomic_list_concat(Parts, '; ', Subtitle).
+
+%   Least and Most are the numbers of runs of a case, whose steps are cases.
+
+run_counts(Runs, Least, Most) :-
+    findall(Case-N, ( member(run(Case0, Seed, Ms), Runs),
+                      ( del_dict(time, Case0, _, Case) -> true ; Case = Case0 ),
+                      ( Ms == measures{} -> N = none ; N = Seed ) ),
+            All),
+    sort(All, Made),
+    group_pairs_by_key(Made, Groups),
+    findall(Count, ( member(_-Seeds0, Groups), exclude(==(none), Seeds0, Seeds),
+                     length(Seeds, Count) ),
+            Counts),
+    min_list(Counts, Least),
+    max_list(Counts, Most).
 
 together(Study, Options, Runs, X, Together) :-
     findall(Case, member(run(Case, _, _), Runs), Cases),

@@ -1,11 +1,11 @@
 :- module(study_outcome,
-          [ outcome/4,                  % +Study, +Cases, +Runs, -Outcome
+          [ outcome/4,                  % +Plan, +Seeds, +Runs, -Outcome
             case_numbers/4              % +Runs, +Case, +Measure, -Numbers
           ]).
-:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(apply), [exclude/3, include/3, maplist/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module(cases, [varied/3]).
-:- use_module(claims, [claim_holds/2, claim_known/2]).
+:- use_module(cases, [expected_cases/3, varied/3]).
+:- use_module(claims, [claim_verdict/3]).
 :- use_module(evidence, [claim_comparisons/3]).
 :- use_module(found, [claim_found/4]).
 :- use_module(numbers, [spread/4]).
@@ -19,34 +19,68 @@
 :- multifile
     prolog:message//1.
 
-%!  outcome(+Study, +Cases, +Runs, -Outcome:dict) is det.
+%!  outcome(+Plan, +Seeds, +Runs, -Outcome:dict) is det.
 %
-%   Runs are run(Case, Seed, Measures), Measures a dict.  Outcome has
+%   Runs, of the seeds Seeds of Plan, are run(Case, Seed, Measures), Measures a
+%   dict.  Outcome has
 %
 %     - `names`: the parameters that vary
+%     - `seeds`: the number of seeds
+%     - `missing`: the number of runs that were planned and are missing
 %     - `rows`: a list of row(Case, Count, Spreads), one for each case that has
 %       runs; Spreads are spread(Measure, Least, Median, Most, Count) for
 %       measures that are numbers in Count of them
 %     - `claims`: a list of claim(Text, Notes, Held, Of, OfMedians, Found):
-%       the claim held in Held of Of seeds, and OfMedians (`true` or `false`)
-%       for the medians of all runs; Found are the medians, as text.
-%       Seeds with a missing case do not count; Of is 0 if no seed has values
-%       to compare.
+%       the claim held in Held of the Of seeds for which it is known, and
+%       OfMedians (`true`, `false` or `unknown`) for the medians of all runs;
+%       Found are the medians, as text.
 %     - `tests`: a list of Text-Comparisons, the rank tests of each claim, see
 %       claim_comparisons/3.
+%
+%   The claims are about all of expected_cases/3: a run that was not made is a
+%   missing point, and a case that lacks a run of a seed has no median.
 
-outcome(Study, Cases, Runs,
-        outcome{names:Names, rows:Rows, claims:Claims, tests:Tests}) :-
+outcome(plan(Study, Given, Cases), Seeds, Runs,
+        outcome{names:Names, seeds:SeedCount, missing:Missing, rows:Rows,
+                claims:Claims, tests:Tests}) :-
     varied(Study, Cases, Names),
     findall(Row, ( member(Case, Cases), row(Runs, Case, Row) ), Rows),
-    seeds(Runs, Cases, Seeds),
+    maplist(length, [Seeds, Cases, Runs], [SeedCount, CaseCount, RunCount]),
+    Missing is SeedCount*CaseCount - RunCount,
+    expected_cases(Study, Given, Expected),
     findall(Points,
             ( member(Seed, Seeds),
-              findall(Case-Ms, member(run(Case, Seed, Ms), Runs), Points) ),
+              findall(Case-Ms, member(run(Case, Seed, Ms), Runs), OfSeed),
+              points(Expected, of_case(OfSeed), Points) ),
             OfSeeds),
-    median_points(Rows, Medians),
-    findall(Claim, claim(Study, Names, OfSeeds, Medians, Claim), Claims),
+    points(Expected, median(Rows, 1), Found),
+    points(Expected, median(Rows, SeedCount), Medians),
+    findall(Claim, claim(Study, Names, OfSeeds, Medians, Found, Claim), Claims),
     findall(Text-Comparisons, tested(Study, OfSeeds, Text, Comparisons), Tests).
+
+:- meta_predicate points(+, 2, -).
+
+points(Cases, Measured, Points) :-
+    findall(Case-Measures,
+            ( member(Case, Cases),
+              (   call(Measured, Case, Measures0)
+              ->  Measures = Measures0
+              ;   Measures = missing
+              ) ),
+            Points).
+
+of_case(Points, Case, Measures) :-
+    member(Case1-Measures, Points),
+    Case1 == Case.
+
+%   Measures that are not numbers belong to a single run, and have no median.
+
+median(Rows, Least, Case, Measures) :-
+    member(row(Case1, Count, Spreads), Rows),
+    Case1 == Case,
+    Count >= Least,
+    findall(Name-Median, member(spread(Name, _, Median, _, _), Spreads), Pairs),
+    dict_create(Measures, measures, Pairs).
 
 row(Runs, Case, row(Case, Count, Spreads)) :-
     findall(Ms, ( member(run(Case1, _, Ms), Runs), Case1 == Case ), All),
@@ -64,36 +98,22 @@ row(Runs, Case, row(Case, Count, Spreads)) :-
               spread(Vs, Least, Median, Most) ),
             Spreads).
 
-%   seeds(+Runs, +Cases, -Seeds): the seeds that have runs of all cases.
-
-seeds(Runs, Cases, Seeds) :-
-    length(Cases, Count),
-    findall(Seed, member(run(_, Seed, _), Runs), All),
-    sort(All, Distinct),
-    findall(Seed,
-            ( member(Seed, Distinct),
-              aggregate_all(count, member(run(_, Seed, _), Runs), Count) ),
-            Seeds).
-
-%   Measures that are not numbers belong to a single run, and have no median.
-
-median_points(Rows, Points) :-
-    findall(Case-Measures,
-            ( member(row(Case, _, Spreads), Rows),
-              findall(Name-Median,
-                      member(spread(Name, _, Median, _, _), Spreads), Pairs),
-              dict_create(Measures, measures, Pairs) ),
-            Points).
-
-claim(Study, Names, OfSeeds, Medians, claim(Text, Notes, Held, Of, M, Found)) :-
+claim(Study, Names, OfSeeds, Medians, FoundMedians,
+      claim(Text, Notes, Held, Of, OfMedians, Found)) :-
     study_call(Study, claim(Text, Notes, Test)),
-    length(OfSeeds, Count),
-    catch(( judged(Study:Test, Names, OfSeeds, Medians, Held, M, Found),
-            counted(Study:Test, OfSeeds, Count, Of) ),
+    catch(( maplist(claim_verdict(Study:Test), OfSeeds, Verdicts),
+            claim_verdict(Study:Test, Medians, OfMedians),
+            claim_found(Study:Test, FoundMedians, Names, Found),
+            counted(Verdicts, Held, Of) ),
           error(Formal, Context),
           ( print_message(warning, study_claim(Text, error(Formal, Context))),
-            t(Held, M, Found, Of)
-            = t(0, false, 'a mistake in the claim', Count) )).
+            t(Held, OfMedians, Found) = t(0, false, 'a mistake in the claim'),
+            length(OfSeeds, Of) )).
+
+counted(Verdicts, Held, Of) :-
+    exclude(==(unknown), Verdicts, Known),
+    include(==(true), Known, True),
+    maplist(length, [True, Known], [Held, Of]).
 
 %   A mistake in a claim has been reported when the claim was evaluated.
 
@@ -113,25 +133,6 @@ case_numbers(Runs, Case, Measure, Numbers) :-
               get_dict(Measure, Ms, Value),
               number(Value) ),
             Numbers).
-
-%   With given parameters there may be nothing to compare.
-
-counted(Test, OfSeeds, Count, Of) :-
-    (   member(Points, OfSeeds),
-        claim_known(Test, Points)
-    ->  Of = Count
-    ;   Of = 0
-    ).
-
-judged(Test, Names, OfSeeds, Medians, Held, OfMedians, Found) :-
-    aggregate_all(count,
-                  ( member(Points, OfSeeds), claim_holds(Test, Points) ),
-                  Held),
-    (   claim_holds(Test, Medians)
-    ->  OfMedians = true
-    ;   OfMedians = false
-    ),
-    claim_found(Test, Medians, Names, Found).
 
 prolog:message(study_claim(Text, Error)) -->
     [ 'Claim "~w": '-[Text] ],

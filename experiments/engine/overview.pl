@@ -108,11 +108,12 @@ small_picture(Study, Name, Directory, img([class(small), src(Path), alt(Title)])
     exists_file(Drawn),
     uri_encoded(path, File, Path).
 
-%   Claims without runs are unknown.
+%   Claims that need a missing run are unknown.
 
 share(Outcome, Text) :-
     findall(OfMedians,
-            ( member(claim(_, _, _, Of, OfMedians, _), Outcome.claims), Of > 0 ),
+            ( member(claim(_, _, _, _, OfMedians, _), Outcome.claims),
+              OfMedians \== unknown ),
             Known),
     aggregate_all(count, member(true, Known), Held),
     length(Known, KnownCount),

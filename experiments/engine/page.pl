@@ -8,7 +8,7 @@
 :- use_module(numbers, [number_text/2]).
 :- use_module(overview, [overview//2, overview_title/2]).
 :- use_module(report,
-              [ case_texts/3, evidence/3, held_text/3, medians_text/4,
+              [ case_texts/3, evidence/3, held_text/4, medians_text/4,
                 parameter_rows/3,
                 shown_measures/3, spread_text/3 ]).
 :- use_module(store, [run_facts/2]).
@@ -72,7 +72,8 @@ studies([shown(Study, Outcome, Command, Run)|Shown], Directory) -->
       findall(Figure, figure(Study, Directory, Name, Figure), Figures) },
     html([ h2(id(Name), [Name, ': ', Title]) | Texts ]),
     html(Figures),
-    claims(Outcome.claims, Outcome.tests),
+    missing(Outcome.missing),
+    claims(Outcome.claims, Outcome),
     medians(Study, Outcome),
     checks(Outcome.checks),
     parameters(Study, Outcome.given),
@@ -124,18 +125,24 @@ figure(Study, Directory, Name, p([b(Plot), ' ', Title, br([]), Shown])) :-
                 *            TABLES            *
                 *******************************/
 
+missing(0) -->
+    !,
+    [].
+missing(Count) -->
+    html(p(class(unknown), [Count, ' of the planned runs are missing.'])).
+
 claims([], _) -->
     !,
     [].
-claims(Claims, Tests) -->
+claims(Claims, Outcome) -->
     { findall(tr(class(Class), [td(Said), td(Word), td([Found|Evidence])]),
               ( member(claim(Text, Notes, Held, Of, Medians, Found), Claims),
-                held_text(Held, Of, Word0),
-                verdict(Held, Of, Medians, Class),
+                held_text(Held, Of, Outcome.seeds, Word0),
+                verdict(Held, Of, Outcome.seeds, Medians, Class),
                 medians_text(Held, Of, Medians, Word1),
                 atom_concat(Word0, Word1, Word),
                 noted(Text, Notes, Said),
-                evidence_span(Text, Tests, Evidence) ),
+                evidence_span(Text, Outcome.tests, Evidence) ),
               Rows) },
     html(table([tr([th(claim), th('held'), th('found (medians)')])|Rows])).
 
@@ -144,10 +151,10 @@ evidence_span(Text, Tests, [' ', span(class(small), Said)]) :-
     !.
 evidence_span(_, _, []).
 
-verdict(_, 0, _, unknown) :- !.
-verdict(Of, Of, true, yes) :- !.
-verdict(0, _, false, no) :- !.
-verdict(_, _, _, some).
+verdict(_, 0, _, _, unknown) :- !.
+verdict(Seeds, Seeds, Seeds, true, yes) :- !.
+verdict(0, Seeds, Seeds, false, no) :- !.
+verdict(_, _, _, _, some).
 
 noted(Text, [], Text) :-
     !.

@@ -8,7 +8,7 @@
             shown_measures/3,           % +Study, +Rows, -Measures
             parameter_rows/3,           % +Study, +Given, -Rows
             claims_sentence/2,          % +Outcomes, -Sentence
-            held_text/3,                % +Held, +Of, -Text
+            held_text/4,                % +Held, +Of, +Seeds, -Text
             medians_text/4              % +Held, +Of, +OfMedians, -Text
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
@@ -47,7 +47,7 @@ print_outcome(Stream, Study, Outcome) :-
     print_table(Stream, Header, Rows),
     nl(Stream),
     forall(member(Claim, Outcome.claims),
-           print_claim(Stream, Outcome.tests, Claim)),
+           print_claim(Stream, Outcome, Claim)),
     print_checks(Stream, Outcome.checks).
 
 print_checks(_, []) :-
@@ -98,11 +98,11 @@ spread_text(row(_, Count, Spreads), Measure, Text) :-
     ).
 spread_text(_, _, '').
 
-print_claim(Stream, Tests, claim(Text, _, Held, Of, OfMedians, Found)) :-
-    held_text(Held, Of, Word),
+print_claim(Stream, Outcome, claim(Text, _, Held, Of, OfMedians, Found)) :-
+    held_text(Held, Of, Outcome.seeds, Word),
     medians_text(Held, Of, OfMedians, Medians),
     format(Stream, '  ~w~t~22|~w~w~n~22|~w~n', [Word, Text, Medians, Found]),
-    (   evidence(Text, Tests, Evidence)
+    (   evidence(Text, Outcome.tests, Evidence)
     ->  format(Stream, '~22|~w~n', [Evidence])
     ;   true
     ).
@@ -144,21 +144,27 @@ mean_text(Numbers, Text) :-
     ).
 mean_text(_, '').
 
-%!  held_text(+Held, +Of, -Text) is det.
+%!  held_text(+Held, +Of, +Seeds, -Text) is det.
 
-held_text(_, 0, 'not known') :- !.
-held_text(1, 1, held) :- !.
-held_text(Of, Of, Text) :- !, format(atom(Text), 'held, ~d runs', [Of]).
-held_text(0, _, 'DID NOT HOLD') :- !.
-held_text(Held, Of, Text) :- format(atom(Text), 'held in ~d of ~d', [Held, Of]).
+held_text(_, 0, _, 'not known') :- !.
+held_text(1, 1, 1, held) :- !.
+held_text(Of, Of, Of, Text) :- !, format(atom(Text), 'held, ~d runs', [Of]).
+held_text(0, Of, Of, 'DID NOT HOLD') :- !.
+held_text(Held, Of, Of, Text) :-
+    !,
+    format(atom(Text), 'held in ~d of ~d', [Held, Of]).
+held_text(Held, Of, Seeds, Text) :-
+    Unknown is Seeds - Of,
+    format(atom(Text), 'held in ~d of ~d, ~d not known', [Held, Seeds, Unknown]).
 
 %!  claims_sentence(+Outcomes:list, -Sentence:atom) is det.
 %
 %   How many of the claims of all Outcomes held.
 
 claims_sentence(Outcomes, Sentence) :-
-    findall(Text-(Held-Of),
+    findall(claim(Text, Held, Of, Seeds),
             ( member(Outcome, Outcomes),
+              Seeds = Outcome.seeds,
               member(claim(Text, _, Held, Of, _, _), Outcome.claims) ),
             Claims),
     exclude(all_held, Claims, Others),
@@ -166,21 +172,21 @@ claims_sentence(Outcomes, Sentence) :-
     length(Others, OtherCount),
     HeldCount is Count - OtherCount,
     sentence(Others, HeldCount, Count, Sentence0),
-    aggregate_all(count, member(_-(_-0), Others), Unknown),
+    aggregate_all(count, member(claim(_, Same, Same, _), Others), Unknown),
     (   Unknown =:= 0
     ->  Sentence = Sentence0
     ;   format(atom(Sentence), '~w ~d not known.', [Sentence0, Unknown])
     ).
 
-all_held(_-(Of-Of)) :-
-    Of > 0.
+all_held(claim(_, Seeds, Seeds, Seeds)) :-
+    Seeds > 0.
 
 sentence(_, _, 0, 'Nothing is claimed.') :-
     !.
 sentence([], _, Count, Sentence) :-
     !,
     format(atom(Sentence), 'All ~d claims held.', [Count]).
-sentence([Text-(_-1)], _, Count, Sentence) :-
+sentence([claim(Text, 0, 1, 1)], _, Count, Sentence) :-
     !,
     format(atom(Sentence), '1 of ~d claims did not hold: ~w.', [Count, Text]).
 sentence(_, Held, Count, Sentence) :-

@@ -135,10 +135,11 @@ case_text(Names, Case, Text) :-
     atomic_list_concat(Parts, ',', Text).
 
 claim_table(Outcome, [Header|Rows]) :-
-    Header = [claim, held, of, of_medians, found, notes],
-    findall([Text, Held, Of, OfMedians, Found, Notes],
+    Header = [claim, held, of, of_medians, found, notes, unknown],
+    findall([Text, Held, Of, OfMedians, Found, Notes, Unknown],
             ( member(claim(Text, Notes0, Held, Of, OfMedians, Found),
                      Outcome.claims),
+              Unknown is Outcome.seeds - Of,
               format(atom(Notes), '~w', [Notes0]) ),
             Rows).
 

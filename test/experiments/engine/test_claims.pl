@@ -6,7 +6,11 @@
 :- use_module('../../lib/common').
 :- use_module('../../../experiments/engine/claims').
 :- use_module('../../../experiments/engine/found').
-:- use_module(library(lists), [member/2]).
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(debug), [assertion/1]).
+:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(occurs), [sub_term/2]).
+:- use_module(library(random), [maybe/1, random_between/3, random_member/2]).
 :- use_module(library(plunit)).
 
 %   Two lines, k = a and k = b, along n: `up` rises on both, `bent` on a only,
@@ -27,9 +31,37 @@ holds(Test) :-
     points(Points),
     claim_holds(test_claims:Test, Points).
 
-known(Test) :-
+verdict(Test, Verdict) :-
     points(Points),
-    once(claim_known(test_claims:Test, Points)).
+    claim_verdict(test_claims:Test, Points, Verdict).
+
+%   A test, and a verdict on random points; then without some of the runs.
+
+verdicts(Test, Before, After) :-
+    findall(Case-Measures, random_point(Case, Measures), Points0),
+    findall(Test0, ( holding(Test0) ; failing(Test0) ; unknown(Test0) ), Tests),
+    random_member(Test, Tests),
+    maplist(lost, Points0, Points),
+    claim_verdict(test_claims:Test, Points0, Before),
+    claim_verdict(test_claims:Test, Points, After).
+
+random_point(case{k:K, n:N}, Measures) :-
+    point(K, N, _, _, _, _),
+    findall(Name-Value, ( member(Name, [up, bent, same, gap]), maybe(0.9),
+                          random_between(1, 40, Value) ), Pairs),
+    dict_create(Measures, measures, Pairs).
+
+lost(Case-Measures, Case-Left) :-
+    ( maybe(0.3) -> Left = missing ; Left = Measures ).
+
+%   The verdict on the points without the runs of the cases with Name=Value.
+
+verdict_without(Name=Value, Test, Verdict) :-
+    points(Points0),
+    findall(Case-Left, ( member(Case-Measures, Points0),
+                         ( get_dict(Name, Case, Value) -> Left = missing
+                         ; Left = Measures ) ), Points),
+    claim_verdict(test_claims:Test, Points, Verdict).
 
 %   holding(Test), and failing(Test).
 
@@ -178,10 +210,44 @@ test(unknown_claim, [forall(( unknown(Test), Test \= rises(_, _) )), fail]) :-
 test(unknown_claim_is_not_denied,
      [forall(( unknown(Test), Test \= rises(_, _) )), fail]) :-
     holds(\+ Test).
-test(known, [ forall(( holding(Test) ; failing(Test) )) ]) :-
-    known(Test).
-test(not_known, [forall(( unknown(Test), Test \= rises(_, _) )), fail]) :-
-    known(Test).
+test(failing_claim_is_known, [forall(failing(Test)), Verdict == false]) :-
+    verdict(Test, Verdict).
+test(not_known, [ forall(( unknown(Test), Test \= rises(_, _) )),
+                  Verdict == unknown ]) :-
+    verdict(Test, Verdict).
+test(without_runs_a_verdict_is_the_same_or_unknown) :-
+    forall(between(1, 3000, _),
+           ( verdicts(Test, Before, After),
+             assertion(memberchk(After-Test, [Before-Test, unknown-Test])) )).
+test(one_side_of_a_claim_is_missing,
+     [ forall(( member(Missing, [k=a, k=b]),
+                member(Test, [ at([k=a], up) < at([k=b], up),
+                               at([k=b], rise(up, along(n))) > 21,
+                               at([k=a], rise(up, along(n))) < 21,
+                               rises(up, along(n)), least(up, k=a),
+                               number(up) =:= 6, sum(up) > 1,
+                               correlation(up, n) > 0.1, some(up > 99),
+                               \+ some(up > 99), holds(six) ]),
+                \+ ( Missing = (k=a), sub_term(k=b, Test),
+                     sub_term(rise(_, _), Test) ),
+                \+ ( Missing = (k=b), sub_term(k=a, Test),
+                     sub_term(rise(_, _), Test) ) )),
+       Verdict == unknown ]) :-
+    verdict_without(Missing, Test, Verdict).
+test(what_is_left_may_decide,
+     [ forall(member(Test-Verdict0, [ (up < 11)-false, (up < 99)-unknown,
+                                      some(up > 30)-true,
+                                      (up < 11, gap > 0)-false,
+                                      rises(same, along(n))-false,
+                                      at([k=b], up > 10)-true ])),
+       Verdict == Verdict0 ]) :-
+    verdict_without(k=a, Test, Verdict).
+test(another_case_is_not_the_case_itself,
+     [ forall(member(Test, [ at([k=c], rise(up, along(n))) > 0,
+                             at([k=c], first(up, along(n))) =< up,
+                             at([k=c], number(up)) =:= 0 ])),
+       Verdict == unknown ]) :-
+    verdict(Test, Verdict).
 test(half_known, nondet) :-
     holds((nothing > 1 ; up > 9)),
     holds(\+ (nothing > 1, up > 99)).

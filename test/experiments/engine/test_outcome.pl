@@ -13,6 +13,7 @@
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(plunit)).
+:- use_module(library(random), [maybe/1]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 
 toy([ 'study(toy, "A toy").',
@@ -36,12 +37,13 @@ outcome_of(Values, Outcome) :-
 outcome_of(Values, Outcome, Study) :-
     study_cases(Study, [], Cases),
     Cases = [A, B],
+    findall(Seed, member(values(Seed, _, _), Values), Seeds),
     findall(run(Case, Seed, measures{m:M}),
             ( member(values(Seed, MA, MB), Values),
               member(Case-M, [A-MA, B-MB]),
               M \== missing ),
             Runs),
-    outcome(Study, Cases, Runs, Outcome0),
+    outcome(plan(Study, [], Cases), Seeds, Runs, Outcome0),
     Outcome = Outcome0.put(_{given:[], checks:[], study:Study, runs:Runs}).
 
 claim(Outcome, Text, Held-Of-OfMedians) :-
@@ -52,7 +54,83 @@ quietly_outcome_of(Values, Outcome) :-
 
 three([values(1, 10, 20), values(2, 12, 30), values(3, 14, 4)]).
 
+%   A study of three ways and two sizes, run for some of the cases.
+
+ways([ 'study(ways, "Three ways").',
+       'vary(way, [slow, plain, fast]).',
+       'vary(size, [1, 2]).',
+       'measure(m, Log, M) :- M is Log.case.size.',
+       'claim("fast is least", [], least(m, way=fast)).',
+       'claim("slow rises", [], at([way=slow], rise(m, along(size))) > 0).',
+       'claim("slow by itself", [], at([way=slow], rises(m, along(size)))).',
+       'claim("all rise", [], rises(m, along(size))).',
+       'claim("no way is great", [], \\+ some(m > 60)).',
+       'claim("plain is not slow", [],',
+       '      at([size=2], at([way=plain], m) =\\= at([way=slow], m))).' ]).
+
+ways_shares(Given, Runs, Shares) :-
+    ways(Lines),
+    with_study(Lines, ways_shares(Given, Runs, Shares)).
+
+ways_shares(Given, Made, Shares, Study) :-
+    study_cases(Study, Given, Cases),
+    findall(run(Case, Seed, measures{m:M}),
+            ( member(Seed, [1, 2]), member(Case, Cases),
+              memberchk(Case.way-Base, [slow-50, plain-30, fast-10]),
+              call(Made, Seed, Case),
+              M is Base + Case.size ),
+            Runs),
+    outcome(plan(Study, Given, Cases), [1, 2], Runs, Outcome),
+    findall(Text-(Held/Of), member(claim(Text, _, Held, Of, _, _),
+                                   Outcome.claims),
+            Shares).
+
+all(_, _).
+
+none(_, _) :-
+    fail.
+
+not_first(Seed, Case) :-
+    \+ ( Seed == 1, Case.way == fast ).
+
+some_of(Odds, _, _) :-
+    maybe(Odds).
+
 :- begin_tests(outcome).
+
+test(all_runs, Shares == [ "fast is least"-2/2, "slow rises"-2/2,
+                           "slow by itself"-2/2, "all rise"-2/2,
+                           "no way is great"-2/2, "plain is not slow"-2/2 ]) :-
+    ways_shares([], all, Shares).
+test(no_run, [forall(member(Given, [[], [way-fast], [way-odd]]))]) :-
+    ways_shares(Given, none, Shares),
+    assertion(forall(member(_-Share, Shares), Share == 0/0)).
+test(a_given_way_says_nothing_of_others,
+     Shares == [ "fast is least"-0/0, "slow rises"-0/0, "slow by itself"-0/0,
+                 "all rise"-0/0, "no way is great"-0/0,
+                 "plain is not slow"-0/0 ]) :-
+    ways_shares([way-fast], all, Shares).
+test(two_given_ways_say_nothing_of_the_third,
+     Shares == [ "fast is least"-0/0, "slow rises"-2/2, "slow by itself"-2/2,
+                 "all rise"-0/0, "no way is great"-0/0,
+                 "plain is not slow"-0/0 ]) :-
+    ways_shares([way-[fast,slow]], all, Shares).
+test(a_given_size_has_no_trend) :-
+    ways_shares([size-2], all, Shares),
+    forall(member(Text, ["slow rises", "slow by itself", "all rise"]),
+           assertion(memberchk(Text-0/0, Shares))).
+test(failed_runs_of_a_seed,
+     Shares == [ "fast is least"-1/1, "slow rises"-2/2, "slow by itself"-2/2,
+                 "all rise"-1/1, "no way is great"-1/1,
+                 "plain is not slow"-2/2 ]) :-
+    ways_shares([], not_first, Shares).
+test(fewer_runs_hold_in_no_more_seeds) :-
+    ways_shares([], all, All),
+    forall(( between(1, 20, _), ways_shares([], some_of(0.7), Some),
+             member(Text-(Held/Of), Some) ),
+           ( memberchk(Text-(Most/_), All),
+             assertion(Held =< Most),
+             assertion(Held =:= Of) )).
 
 test(medians_and_spreads, Spreads == [10-12-14-3, 4-20-30-3]) :-
     three(Values),
@@ -80,15 +158,25 @@ test(claims_are_checked_per_seed, Share == 2-3-false) :-
     claim(Outcome1, "rises", Share0),
     assertion(Share0 == 2-3-false),
     Share = Share0.
-test(seeds_with_missing_cases_do_not_count, Share == 1-1-true) :-
+test(seeds_with_missing_cases_are_not_known, Share == 1-1-unknown) :-
     quietly_outcome_of([ values(1, 10, 20), values(2, 12, missing) ],
                        Outcome),
+    claim(Outcome, "rises", Share),
+    assertion(Outcome.missing == 1),
+    assertion(Outcome.seeds == 2).
+test(a_run_may_decide_without_the_others, Share == 1-2-unknown) :-
+    quietly_outcome_of([ values(1, 10, 20), values(2, 30, missing) ],
+                       Outcome),
+    claim(Outcome, "small", Share).
+test(with_one_of_two_cases_nothing_rises, Share == 0-0-unknown) :-
+    findall(values(Seed, 10, missing), between(1, 3, Seed), Values),
+    quietly_outcome_of(Values, Outcome),
     claim(Outcome, "rises", Share).
-test(without_runs_nothing_is_known, Share-Rows == (0-0-false)-[]) :-
+test(without_runs_nothing_is_known, Share-Rows == (0-0-unknown)-[]) :-
     quietly_outcome_of([], Outcome),
     claim(Outcome, "rises", Share),
     Rows = Outcome.rows.
-test(unmeasured_value_is_unknown, Share == 0-0-false) :-
+test(unmeasured_value_is_unknown, Share == 0-0-unknown) :-
     three(Values),
     quietly_outcome_of(Values, Outcome),
     claim(Outcome, "never measured", Share).
@@ -131,11 +219,14 @@ saved(Outcome, Name, Text, Dir) :-
 
 :- begin_tests(report).
 
-test(held, [ forall(member(H/N-T, [ 0/0-'not known', 1/1-held,
-                                    3/3-'held, 3 runs', 0/3-'DID NOT HOLD',
-                                    2/3-'held in 2 of 3' ])),
+test(held, [ forall(member(H/N/S-T, [ 0/0/3-'not known', 1/1/1-held,
+                                      3/3/3-'held, 3 runs',
+                                      0/3/3-'DID NOT HOLD',
+                                      2/3/3-'held in 2 of 3',
+                                      2/2/3-'held in 2 of 3, 1 not known',
+                                      0/1/3-'held in 0 of 3, 2 not known' ])),
              Text == T ]) :-
-    held_text(H, N, Text).
+    held_text(H, N, S, Text).
 test(table, Text == "  a    bb  c\n  1  2.50  some\n  2     3  x\n") :-
     with_output_to(string(Text),
                    print_table(current_output, [a, bb, c],

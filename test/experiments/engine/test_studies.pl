@@ -266,7 +266,7 @@ test(no_cases_left_to_compare) :-
     prints(['--set', 'a=1', '--runs', 1], exit(0), Text),
     has(Text, ["not known           m grows"]).
 test(collect_of_missing_runs) :-
-    prints(['--collect', '--out', out], exit(0), Text),
+    prints(['--collect', '--out', out], exit(1), Text),
     has(Text, ["not known", "12 of 12 runs are missing"]).
 test(no_runs, forall(member(Option, ['--runs', '--jobs']))) :-
     prints([Option, 0], Status, _),

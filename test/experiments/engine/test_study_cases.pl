@@ -48,7 +48,28 @@ first_name(Name, Study) :-
     study_cases(Study, [], [Case|_]),
     case_name(Study, Case, Name).
 
+expected(Given, Rows) :-
+    study([], expected(Given, Rows)).
+
+expected(Given, Rows, Study) :-
+    expected_cases(Study, Given, Cases),
+    findall([A, B, C], ( member(Case, Cases), maplist(value(Case), [a, b, c],
+                                                      [A, B, C]) ),
+            Rows).
+
 :- begin_tests(study_cases).
+
+test(claims_are_about_what_given_values_leave_out,
+     [ forall(member(Given, [[b-x], [b-[x]], [b-[y, x]]])),
+       Rows == [[1, x, 3], [1, y, 3], [2, x, 3], [2, y, 3]] ]) :-
+    expected(Given, Rows).
+test(claims_are_about_other_conditions,
+     Rows == [[1, z, 4], [2, z, 4]]) :-
+    expected([b-z, c-4], Rows).
+test(claims_are_about_more_cases,
+     Rows == [[1, x, 3], [1, y, 3], [1, z, 3]]) :-
+    expected([a-[1], b-[z, x]], All),
+    findall([1, B, C], member([1, B, C], All), Rows).
 
 test(first_varies_slowest,
      Rows == [[1, x, 3], [1, y, 3], [2, x, 3], [2, y, 3]]) :-

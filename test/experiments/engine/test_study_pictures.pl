@@ -134,6 +134,24 @@ between_texts(Text, Before, After, Between) :-
 gnuplot :-
     absolute_file_name(path(gnuplot), _, [access(execute), file_errors(fail)]).
 
+%   The case n=2, kind=new_one has no run, the other new ones have one of three.
+
+gap(Text, Dir, File) :-
+    study_load(File, Study),
+    runs(Study, Dir, _, Runs0),
+    findall(run(Case, Seed, Ms),
+            ( member(run(Case, Seed, Ms0), Runs0),
+              (   Case.kind == new_one,
+                  ( Case.n == 2 ; Seed > 1 )
+              ->  Ms = measures{}
+              ;   Ms = Ms0
+              ) ),
+            Runs),
+    once(study_call(Study, plot(one, Title, Picture))),
+    picture(Study, plot(one, Title, Picture), Runs, Dir),
+    has('one.gnuplot', ["0 to 3 runs of each"], Dir, _),
+    text(Dir, 'one.dat', Text).
+
 :- begin_tests(study_pictures).
 
 test(medians, Text == "1 12 11 13\n2 22 21 23\n10 102 101 103\n\n\n\c
@@ -142,6 +160,11 @@ test(medians, Text == "1 12 11 13\n2 22 21 23\n10 102 101 103\n\n\n\c
 test(runs, nondet) :-
     with_pictures(data('one-runs.dat', Text)),
     sub_string(Text, 0, _, _, "1 11\n1 12\n1 13\n2 21\n").
+test(lines_are_not_joined_across_a_case_without_runs,
+     Text == "1 11 11 11\n2 NaN NaN NaN\n10 101 101 101\n\n\n\c
+1 112 111 113\n2 122 121 123\n10 202 201 203\n\n\n") :-
+    study(Lines),
+    with_study_file(Lines, gap(Text)).
 test(printed, Text == "NaN NaN NaN NaN\n\n\n10 12\n\n\n") :-
     with_pictures(data('one-printed.dat', Text)).
 test(variables) :-
@@ -211,7 +234,9 @@ with_page(Goal) :-
 page(Goal, Dir, File) :-
     study_load(File, Study),
     runs(Study, Dir, Cases, Runs),
-    outcome(Study, Cases, Runs, Outcome0),
+    findall(Seed, member(run(_, Seed, _), Runs), Seeds0),
+    sort(Seeds0, Seeds),
+    outcome(plan(Study, [], Cases), Seeds, Runs, Outcome0),
     Outcome = Outcome0.put(_{given:[c-[5]], checks:[[m, 1, 2, above]]}),
     atomic_list_concat([Dir, '/toy 1'], Figures),
     make_directory_path(Figures),
@@ -285,7 +310,7 @@ test(claims_without_runs_are_not_counted, Texts == ['1 of 2, 1 not known']) :-
     project_study('sync/figure_5_8', Study),
     Claims = [ claim("holds", [], 1, 1, true, []),
                claim("fails", [], 0, 1, false, []),
-               claim("has no runs", [], 0, 0, false, []) ],
+               claim("has no runs", [], 0, 0, unknown, []) ],
     overview_page([shown(Study, outcome{claims:Claims}, '', none)], '.', DOM),
     findall(Text, xpath(DOM, //td(@class=n, text), Text), Texts).
 

@@ -151,7 +151,7 @@ same_cause(Dir, File) :-
 collected_anyway(Dir, File) :-
     runs(Dir, File, '[a,fail]', ['--runs', 1], exit(1), Text),
     contains(Text, "index.html"),
-    runs(Dir, File, '[a,fail]', ['--runs', 1, '--collect'], exit(0), Text1),
+    runs(Dir, File, '[a,fail]', ['--runs', 1, '--collect'], exit(1), Text1),
     contains(Text1, "index.html").
 
 %   A session gets a signal during a run.
