@@ -138,21 +138,28 @@ class BrickCalls:
             time.sleep(PAUSE)
 
     def i2c_begin(self, port, deadline):
+        """Set up the port, and drop the answer that another client left.
+
+        Nothing else is read before the first LSWRITE.
+        """
         self.set_mode(port, LOWSPEED_9V, 0, deadline)
         time.sleep(SETTLE)
-        try:                                # what was not read
-            self.command('LSREAD', {'port': port}, deadline)
-        except Refused:
+        try:
+            if self.i2c_ready(port, deadline) > 0:
+                self.command('LSREAD', {'port': port}, deadline)
+        except Refused:                     # as the last LSWRITE failed
             pass
 
+    def i2c_ready(self, port, deadline):
+        """How many bytes can be read; -1 while they are coming."""
+        try:
+            return self.command('LSGETSTATUS', {'port': port},
+                                deadline)['ready']
+        except Refused as refused:
+            if refused.code != PENDING:
+                raise
+            return -1
+
     def i2c_wait(self, port, rx, deadline):
-        while True:
-            try:
-                values = self.command('LSGETSTATUS', {'port': port},
-                                      deadline)
-                if values['ready'] >= rx:
-                    return
-            except Refused as refused:
-                if refused.code != PENDING:
-                    raise
+        while self.i2c_ready(port, deadline) < rx:
             self.pause(deadline, 'the sensor does not answer')

@@ -102,6 +102,11 @@ class Console:
     def do_count(self):
         return f'count({self.brick.telegrams}, {self.brick.replies})'
 
+    def do_empty_reads(self):
+        counts = [str(port.lowspeed.empty_reads)
+                  for port in self.brick.inputs]
+        return f'empty_reads({", ".join(counts)})'
+
     def do_time(self):
         return f'time({self.brick.time:.3f})'
 

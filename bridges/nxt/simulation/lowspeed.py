@@ -1,4 +1,8 @@
-"""I2C at a sensor port: one transaction at a time, 16 bytes of buffer."""
+"""I2C at a sensor port: one transaction at a time, 16 bytes of buffer.
+
+The firmware answers an LSREAD when no bytes are there as if it had read
+none; that it was sent is counted, since a client must not do so.
+"""
 
 OK, PENDING, BUS_ERROR, NOT_READY, BAD_SIZE = 0x00, 0x20, 0xDD, 0xE0, 0xED
 BUFFER = 16
@@ -12,6 +16,7 @@ class LowSpeed:
         self.coming = b''
         self.done_at = 0.0
         self.failed = False
+        self.empty_reads = 0
 
     def usable(self, now):
         return self.port.digital() and self.port.valid(now)
@@ -56,6 +61,7 @@ class LowSpeed:
     def read(self, now):
         """status and all bytes that are ready"""
         status, ready = self.status(now)
+        self.empty_reads += ready == 0
         if status not in (OK, PENDING):
             return status, b''
         data, self.unread = self.unread[:ready], b''

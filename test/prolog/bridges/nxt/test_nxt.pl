@@ -179,11 +179,15 @@ test(calls) :-
                                  forall(member(Hex, Hexes),
                                         receives(Peer, Hex))
                                )))).
-test(i2c, Degrees == 275) :-
-    Replies = [[2,5,0], [2,16,0,0,z(16)], [2,15,0], [2,14,0x20,0],
-               [2,14,0,5], [2,16,0,5,1,2,3,19,1,z(11)]],
-    Requests = [[0,5,2,11,0], [0,16,2], [0,15,2,2,2,2,0x44], [0,14,2],
-                [0,14,2], [0,16,2]],
+test(i2c, [ forall(member(Left-Read, [ [2,14,0,0]-[], [2,14,0xdd,0]-[],
+                                       [2,14,0,5]-[[2,16,0,5,z(16)]] ])),
+            Degrees == 275 ]) :-
+    append([ [[2,5,0], Left], Read,
+             [ [2,15,0], [2,14,0x20,0], [2,14,0,5],
+               [2,16,0,5,1,2,3,19,1,z(11)] ] ], Replies),
+    findall([0,16,2], member(_, Read), Reads),
+    append([ [[0,5,2,11,0], [0,14,2]], Reads,
+             [[0,15,2,2,2,2,0x44], [0,14,2], [0,14,2], [0,16,2]] ], Requests),
     with_peer(Peer, Port,
               connected(lizzy, Port, [],
                         ( forall(member(Reply, Replies), answer(Peer, Reply)),

@@ -81,7 +81,9 @@ sensors(Brick) :-
     brick_ask(Brick, 'set 4 255', ok),
     assertion(nxt_ultrasonic(lizzy, 4, inf)),
     nxt_i2c(lizzy, 4, [2,8], 8, Maker),
-    assertion(append(`LEGO`, _, Maker)).
+    assertion(append(`LEGO`, _, Maker)),
+    brick_ask(Brick, empty_reads, Reads),
+    assertion(Reads == empty_reads(0, 0, 0, 0)).
 
 motors :-
     nxt_tacho_reset(lizzy, all),
