@@ -2,28 +2,32 @@
 
 /** <module> What happens when the time of day is set
 
-    swipl -g set_clock_main test/lib/set_clock_main.pl -- Scenario Step
+    swipl -g set_clock_main test/lib/set_clock_main.pl -- Step Scenario ...
 
-runs a scenario while its time of day is set by so many seconds, and prints a
-term that test_set_clock.pl expects.
+runs scenarios while the time of day is set by so many seconds, and prints a list
+of terms Scenario-Result that test_set_clock.pl expects.  All waits for a second
+are one scenario: they wait together, and the clock is set once.
 
-*Threading*: the main thread runs the scenario, another one sets the clock.
+*Threading*: a thread for each wait, and one that sets the clock.
 */
 
 :- use_module(common).
 :- use_module(set_clock).
-:- use_module(library(lists), [last/2, nth1/3, numlist/3]).
+:- use_module(library(lists), [append/3, last/2, member/2, nth1/3, numlist/3]).
 :- use_module(library(apply), [foldl/4]).
 :- use_module(library(random), [random_member/2]).
+:- use_module(library(thread), [concurrent/3]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/python)).
 :- use_module(library(typhon/kernel), [agents_run/1]).
 
 set_clock_main :-
-    current_prolog_flag(argv, [Name, Text|_]),
+    current_prolog_flag(argv, [Text|Names]),
     atom_number(Text, Step),
-    scenario(Name, Step, Result),
-    format("~q.~n", [Result]),
+    findall(Name-Result, ( member(Name, Names), clock_set(0),
+                           scenario(Name, Step, Result) ),
+            Results),
+    format("~q.~n", [Results]),
     halt.
 
 %   meanwhile(+Step, :Goal): the clock is set by Step 0.3 s after Goal began.
@@ -41,7 +45,12 @@ meanwhile(Step, Goal) :-
 %   a step longer or shorter.  A loaded computer may add some seconds.
 
 lasts(Step, Goal, Word) :-
-    seconds_of(meanwhile(Step, Goal), Seconds),
+    meanwhile(Step, lasts(Goal, Word)).
+
+:- meta_predicate lasts(0, -).
+
+lasts(Goal, Word) :-
+    seconds_of(Goal, Seconds),
     (   Seconds < 0.9
     ->  Word = early(Seconds)
     ;   Seconds < 25
@@ -49,23 +58,23 @@ lasts(Step, Goal, Word) :-
     ;   Word = late(Seconds)
     ).
 
-with_agent(Clauses, Agent, Goal) :-
+scenario(waits, Step, Results) :-
+    ( missing([python3], []) -> Naps = [nap, long_nap] ; Naps = [] ),
+    append([sleep, receive, join, agents_run], Naps, Waits),
+    project_file('test/lib/python_functions.py', File),
     host_start(here),
-    agent_create(clauses([(:- agent(waiter, []))|Clauses]), Agent),
-    call(Goal),
+    host_start(there),
+    (   Naps == []
+    ->  true
+    ;   python_start(here, File, [timeout(20)]),
+        python_start(there, File, [timeout(1)])
+    ),
+    findall(waited(Wait, _), member(Wait, Waits), Goals),
+    length(Goals, Count),
+    meanwhile(Step, concurrent(Count, Goals, [])),
+    findall(Result, member(waited(_, Result), Goals), Results),
+    host_stop(there),
     host_stop(here).
-
-scenario(sleep, Step, Outcome-Word) :-
-    with_agent([(main :- sleep(1))], Agent,
-               lasts(Step, agent_join(Agent, Outcome, 100), Word)).
-scenario(receive, Step, Outcome-Word) :-
-    with_agent([(main :- ( receive(_-never, 1) -> fail ; true ))], Agent,
-               lasts(Step, agent_join(Agent, Outcome, 100), Word)).
-scenario(join, Step, Outcome-Word) :-
-    with_agent([(main :- receive(_-never))], Agent,
-               lasts(Step, agent_join(Agent, Outcome, 1), Word)).
-scenario(agents_run, Step, Word) :-
-    with_agent([main], _, lasts(Step, agents_run(1), Word)).
 scenario(now, _, Back) :-
     host_start(here),
     numlist(1, 10, Rounds),
@@ -95,17 +104,6 @@ scenario(network, Step, Outcome-Word) :-
           Word0),
     lasts(0, ( network_stop(Network), sleep(1) ), Word1),
     ( Word0 == Word1 -> Word = Word0 ; Word = Word0/Word1 ).
-scenario(python, Step, [Value,Caught,Word]) :-
-    project_file('test/lib/python_functions.py', File),
-    host_start(here),
-    python_start(here, File, [timeout(20)]),
-    meanwhile(Step, remote(here, nap(1, Value))),
-    python_stop(here),
-    clock_set(0),
-    python_start(here, File, [timeout(1)]),
-    lasts(Step, catch(remote(here, nap(40, _)), error(Formal, _), true), Word),
-    functor(Formal, Caught, _),
-    host_stop(here).
 scenario(chaos, Most, Outcomes) :-
     network_start(ring(4), Network, [processes(2)]),
     network_property(Network, hosts(Hosts)),
@@ -132,6 +130,32 @@ scenario(chaos, Most, Outcomes) :-
     thread_join(Setter),
     network_stop(Network),
     sort(All, Outcomes).
+
+%   wait(+Wait, -Outcome): a wait for a second.
+
+wait(sleep, Outcome) :-
+    waiter([(main :- sleep(1))], Agent),
+    agent_join(Agent, Outcome, 100).
+wait(receive, Outcome) :-
+    waiter([(main :- ( receive(_-never, 1) -> fail ; true ))], Agent),
+    agent_join(Agent, Outcome, 100).
+wait(join, Outcome) :-
+    waiter([(main :- receive(_-never))], Agent),
+    agent_join(Agent, Outcome, 1).
+wait(agents_run, done) :-
+    agents_run(1).
+wait(nap, Value) :-
+    remote(here, nap(1, Value)).
+wait(long_nap, Caught) :-
+    catch(remote(there, nap(40, _)), error(Formal, _), true),
+    functor(Formal, Caught, _).
+
+waiter(Clauses, Agent) :-
+    agent_create(clauses([(:- agent(waiter, []))|Clauses]), Agent,
+                 [host(here)]).
+
+waited(Wait, Outcome-Word) :-
+    lasts(wait(Wait, Outcome), Word).
 
 set_randomly(Most) :-
     thread_self(Me),
