@@ -99,6 +99,9 @@ option(host, port, nonneg, 'PORT',
        'TCP port (default any free one)').
 option(host, bind, atom, 'INTERFACE',
        'interface to listen at (default localhost)').
+option(Command, advertise, atom, 'ADDRESS',
+       'name or address, if not that of --bind, by which peers reach it') :-
+    memberchk(Command, [host, network, log]).
 option(host, capacity, nonneg, 'N',
        'maximum number of agents').
 option(host, authors, atom, 'A,B',

@@ -23,7 +23,7 @@ options_for(What, Options, For) :-
 option_for(host, Options, Option) :-
     member(Option, Options),
     functor(Option, Name, 1),
-    memberchk(Name, [port, bind, capacity, policy, journal, sync]).
+    memberchk(Name, [port, bind, advertise, capacity, policy, journal, sync]).
 option_for(host, Options, Option) :-
     log_events_option(Options, Option).
 option_for(host, Options, tokens(Tokens)) :-
@@ -63,7 +63,7 @@ option_for(agent, Options, facts(Facts)) :-
 option_for(log, Options, Option) :-
     member(Option, Options),
     functor(Option, Name, 1),
-    memberchk(Name, [port, bind]).
+    memberchk(Name, [port, bind, advertise]).
 option_for(page, Options, Option) :-
     member(Option, Options),
     functor(Option, Name, 1),

@@ -41,6 +41,8 @@ interface of the layer; its modules are loaded when they are first used.
 %       ssh, or a term of child_start/6.  bind(Interface) must name an interface
 %       that they can reach
 %     - bind(Interface): of the endpoints on this machine; default `localhost`
+%     - advertise(Address): of the endpoints on this machine, as of host_start/2,
+%       but without a port
 %     - tls(Directory): the keys of this process, as of host_start/2, and of the
 %       children; other machines have them in a directory of the same name
 %     - hosts(Options): options of host_start/2 for each of the hosts
@@ -185,8 +187,8 @@ network_load(File, Network, Options) :-
 %     - file(File): where it writes events; required
 %     - mode(Mode): `write` (default) replaces the file, `append` extends it
 %     - name(Name): default `log`
-%     - bind(Interface), port(Port): of the endpoint of the process, if it must
-%       be started; default `localhost`, and any port
+%     - bind(Interface), port(Port), advertise(Address): of the endpoint of the
+%       process, if it must be started; default `localhost`, and any port
 %     - clock(Epoch, Rate): default clock(0, 1), the time of day
 %
 %   Address is Name@Interface:Port, for log(Address) of host_start/2.

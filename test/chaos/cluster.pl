@@ -154,12 +154,12 @@ cluster_start(Name) :-
     life_file(Dir, Name, Number, ledger, Ledger),
     life_file(Dir, Name, Number, messages, Messages),
     launch([ '-g', 'chaos_peer:peer', peer, '--',
-             ledger=Ledger, port=Port, 'known-as'=Known ],
+             ledger=Ledger ],
            Messages, Pid, In, Out),
     thread_create(read_answers(Out, Pid), Reader),
     assertz(running(Name, Pid, In, Out, Reader)),
     assertz(life(Name, Number, Now, inf)),
-    cluster_call(Name, open_hosts(Hosts, Known), 60, Result),
+    cluster_call(Name, open_hosts(Hosts, Port, Known), 60, Result),
     (   Result = yes(_)
     ->  true
     ;   throw(error(system_error(cannot_start(Name, Result)), _))

@@ -8,8 +8,6 @@ takes terms ask(Tag, Goal) on standard input, runs once(Goal) in a thread
 for each, and prints answer(Tag, Result): yes(Goal), `no` or
 raised(Error).  Ends with its input.  Options:
 
-    --port=R --known-as=P    the endpoint listens at R, but announces P: a proxy
-                             stands before it
     --ledger=File            where chaos_note/3 writes
 
 *Threading*: one thread reads, each goal has a thread of its own.
@@ -84,13 +82,16 @@ user:message_hook(typhon(ended_in_doubt(Id, _)), _, _) :-
                 *       WHAT IS ASKED FOR      *
                 *******************************/
 
-%   open_hosts(+Names, +Port): as many as there are Names.
+%   open_hosts(+Names, +Port, +Known): as many as there are Names.  The endpoint
+%   listens at Port, and announces the port Known of the proxy before it.
 
-open_hosts(Names, Port) :-
+open_hosts(Names, Port, Known) :-
+    atom_concat('127.0.0.1:', Known, Address),
     findall(Thing, thing(Thing), Things),
     assertz(mine(Things)),
     forall(member(Name, Names),
-           host_start(Name, [port(Port), services([chaos_peer])])).
+           host_start(Name, [ port(Port), advertise(Address),
+                              services([chaos_peer]) ])).
 
 on_all_hosts(Goal) :-
     forall(host_property(Host, state(running)), remote(Host, Goal)).

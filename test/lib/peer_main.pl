@@ -8,8 +8,6 @@ carries out the goals that come on standard input, one after the other, and
 answers each with a line: yes(Goal), `no` or raised(Error). Ends with its
 input. Options:
 
-    --port=R --known-as=P    the endpoint listens at port R, but announces P:
-                             a proxy stands before it
     --codec=text             send text to all peers
 
 *Threading*: the main thread carries out the goals.
@@ -23,8 +21,6 @@ input. Options:
 :- use_module(library(settings), [set_setting/2]).
 :- use_module(library(main), [argv_options/3]).
 :- use_module(library(prolog_wrap), [wrap_predicate/4]).
-:- use_module(library(socket),
-              [tcp_socket/1, tcp_setopt/2, tcp_bind/2, tcp_listen/2]).
 
 peer_main :-
     current_prolog_flag(argv, Argv),
@@ -35,27 +31,10 @@ peer_main :-
     halt.
 
 set_up(Options) :-
-    (   option(known_as(Known), Options)
-    ->  option(port(Port), Options),
-        stand_behind(Port, Known)
-    ;   true
-    ),
     (   option(codec(text), Options)
     ->  set_setting(typhon_handshake:records, false)
     ;   true
     ).
-
-stand_behind(Port, Known) :-
-    wrap_predicate(typhon_endpoint:listen(Interface, _, Address, Socket),
-                   behind, _,
-                   ( peer_main:listen(Interface, Port, Socket),
-                     atomic_list_concat([Interface, Known], :, Address) )).
-
-listen(Interface, Port, Socket) :-
-    tcp_socket(Socket),
-    tcp_setopt(Socket, reuseaddr),
-    tcp_bind(Socket, Interface:Port),
-    tcp_listen(Socket, 64).
 
 serve :-
     read_term(user_input, Goal, []),

@@ -59,34 +59,32 @@ with_peers(Specs, Goal) :-
 start(Peer-Options) :-
     !,
     free_port(Port),
-    place(Peer, Options, Port, Known, PlaceArgs),
-    codec(Options, CodecArgs),
-    append(CodecArgs, PlaceArgs, Args),
+    place(Peer, Options, Port, Known, PlaceOptions),
+    codec(Options, Args),
     option(host(HostOptions), Options, []),
+    append(PlaceOptions, HostOptions, AllOptions),
     option(setup(Setup), Options, true),
     format(atom(Host), '~w@127.0.0.1:~d', [Peer, Known]),
     tmp_file(Peer, File),
     assertz(messages(Peer, File)),
     assertz(spec(Peer, Args)),
     assertz(host(Peer, Host,
-                 ( Setup, host_start(Peer, [port(Known)|HostOptions]) ))),
+                 ( Setup, host_start(Peer, AllOptions) ))),
     launch(Peer).
 start(Peer) :-
     start(Peer-[]).
 
-%   place(+Peer, +Options, +Port, -Known, -Args): the peer listens at Port, and
-%   announces the port Known of its proxy if it has one.
+%   place(+Peer, +Options, +Port, -Known, -HostOptions): the peer listens at Port,
+%   and announces the port Known of its proxy if it has one.
 
-place(Peer, Options, Port, Known, [Behind, At]) :-
+place(Peer, Options, Port, Known, [port(Port), advertise(Address)]) :-
     option(proxy(Kind), Options),
     !,
     atom_concat('127.0.0.1:', Port, Target),
     start_proxy(Kind, Peer, Target, Address),
     atom_concat('127.0.0.1:', KnownText, Address),
-    atom_number(KnownText, Known),
-    format(atom(Behind), '--known-as=~d', [Known]),
-    format(atom(At), '--port=~d', [Port]).
-place(_, _, Port, Port, []).
+    atom_number(KnownText, Known).
+place(_, _, Port, Port, [port(Port)]).
 
 start_proxy(true, Peer, Target, Address) :-
     proxy_start(Target, Proxy, Address),

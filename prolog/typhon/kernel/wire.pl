@@ -7,10 +7,11 @@ This layer does not know of agents.
 This is the interface of the layer: higher layers import from here.
 */
 
+:- reexport(wire/addresses, [endpoint_parts/3, must_be_endpoint/1]).
 :- reexport(wire/endpoint,
             [ endpoint_address/1, endpoint_listen/2,
-              endpoint_listen_end/1, endpoint_open/0, endpoint_process/1,
-              endpoint_start/4,
+              endpoint_listen_end/1, endpoint_open/0, endpoint_option/1,
+              endpoint_process/1, endpoint_start/4,
               endpoint_start_alone/1, endpoint_stop/0 ]).
 :- reexport(wire/messaging,
             [ endpoint_ask_all/6, endpoint_call/5, endpoint_hand/4,

@@ -1,7 +1,7 @@
 :- module(typhon_building,
           [ network_build/5,            % +Network, +Plan, +Kept, :Change,
                                         % -Clock
-            network_endpoint/4,         % +Network, +Plan, +Port, -Interface
+            network_endpoint/4,         % +Network, +Plan, +Port, -At
             network_log/4,              % +Network, +File, +Options, -Address
             log_option/3,               % +Plan, +Address, -Option
             network_dynamics/2,         % +Network, +Dynamics
@@ -46,11 +46,11 @@ of links, in this order.  A network with a journal is restored from it.
 network_build(Network, Plan, Kept, Change, Clock) :-
     plan_processes(Plan, P, Machines),
     lasting_open(Plan, P, Machines),
-    network_endpoint(Network, Plan, 0, Interface),
+    network_endpoint(Network, Plan, 0, At),
     plan_option(Plan, seed(Seed)),
     time_seed(Seed),
     known_log(Kept, Network, Clock, Plan, Log),
-    nodes_start(Network, P, Machines, Interface,
+    nodes_start(Network, P, Machines, At,
                    lasting_child(Plan, Log)),
     clock_and_log(Network, Plan, Clock, Log),
     lasting_back(Plan, Log),
@@ -149,24 +149,25 @@ start_dynamics(Network, Clock, Plan, Time, Change) :-
 %
 %   Network has Part: log(Address, File) or dynamics(Dynamics).
 
-%!  network_endpoint(+Network, +Plan, +Port, -Interface) is det.
+%!  network_endpoint(+Network, +Plan, +Port, -At) is det.
 %
-%   Start the endpoint of this process at Interface, and at Port if that is not
-%   0.
+%   Start the endpoint of this process, at Port if that is not 0.  At is
+%   at(Interface, Advertised), where its children on this machine listen.
 
-network_endpoint(Network, Plan, Port, Interface) :-
-    interface(Plan, Interface),
+network_endpoint(Network, Plan, Port, at(Interface, Advertised)) :-
+    plan_option(Plan, bind(Interface), localhost),
+    plan_option(Plan, advertise(Advertised), none),
     plan_time(Plan, Kind),
     findall(Option,
-            ( member(Option, [bind(_), tls(_)]),
+            ( member(Option, [advertise(_), bind(_), tls(_)]),
               plan_option(Plan, Option) ),
             Options),
     runtime_acquire(network(Network), [time(Kind), port(Port)|Options]).
 
-interface(Plan, Interface) :-
-    (   plan_option(Plan, bind(Interface0))
-    ->  Interface = Interface0
-    ;   Interface = localhost
+plan_option(Plan, Option, Default) :-
+    (   plan_option(Plan, Option)
+    ->  true
+    ;   arg(1, Option, Default)
     ).
 
 %!  network_log(+Network, +File, +Options, -Address) is det.

@@ -1,5 +1,5 @@
 :- module(typhon_children,
-          [ child_start/6,              % +Tag, +Machine, +Interface,
+          [ child_start/6,              % +Tag, +Machine, +At,
                                         % +Options, :OnEvent, -Child
             child_secret/1,             % -Secret
             child_close/1,              % +Child
@@ -65,7 +65,7 @@ cannot start, and with down(Tag, Status) when it has ended. The thread is no
    retractall(node_file(_)),
    assertz(node_file(File)).
 
-%!  child_start(+Tag, +Machine, +Interface, +Options, :OnEvent, -Child) is det.
+%!  child_start(+Tag, +Machine, +At, +Options, :OnEvent, -Child) is det.
 %
 %   Start a child. Machine is `local`, a target of ssh, or machine(Target,
 %   Options) with the options
@@ -74,17 +74,18 @@ cannot start, and with down(Tag, Status) when it has ended. The thread is no
 %     - node(File): path of node_process.pl on that machine, default as here
 %     - bind(Interface): interface at which the child listens, default the host
 %       of Target
+%     - advertise(Address): default Interface, as of host_start/2
 %
-%   A local child listens at Interface. Options are for the child: port(Port),
+%   A local child listens as At, at(Interface, Advertised), says. Options are for the child: port(Port),
 %   at which it listens, journal(Directory, How), see doc/journal.md, on its
 %   machine, and hosts(Options), which override the options of hosts in the
 %   journal.
 %
 %   @error type_error(machine, Machine), and errors of process_create/3
 
-child_start(Tag, Machine, Interface, Options, OnEvent,
+child_start(Tag, Machine, At0, Options, OnEvent,
             child(Pid, In, Thread)) :-
-    command(Machine, Interface, Program, Args, Bind),
+    command(Machine, At0, Program, Args, At),
     cookie(Cookie),
     keys(Keys),
     setting(stop_seconds, Seconds),
@@ -97,7 +98,7 @@ child_start(Tag, Machine, Interface, Options, OnEvent,
     debug(typhon(network), 'process ~w of ~w is started: ~w, ~p',
           [Pid, Tag, Program, Args]),
     child_secret(Secret),
-    catch(send_term(In, node(Cookie, Secret, Bind, Seconds, Keys, Options)),
+    catch(send_term(In, node(Cookie, Secret, At, Seconds, Keys, Options)),
           error(io_error(_, _), _),
           true).                % the child has ended: down(Tag, _) follows
 
@@ -134,12 +135,12 @@ send_term(In, Term) :-
     format(In, '~k.~n', [Term]),
     flush_output(In).
 
-command(local, Interface, Swipl, Args, Interface) :-
+command(local, At, Swipl, Args, At) :-
     !,
     swipl(Swipl),
     node_file(File),
     node_args(File, Args).
-command(Machine, _, Program, [Target|Command], Bind) :-
+command(Machine, _, Program, [Target|Command], at(Bind, Advertised)) :-
     (   atom(Machine)
     ->  Target = Machine,
         Options = []
@@ -156,6 +157,7 @@ command(Machine, _, Program, [Target|Command], Bind) :-
     target_host(Target, Host),
     node_file(Here),
     option(bind(Bind), Options, Host),
+    option(advertise(Advertised), Options, none),
     option(swipl(Swipl), Options, swipl),
     option(node(File0), Options, Here),
     named_now(File0, File),
@@ -183,6 +185,7 @@ named_now(File0, File) :-
     ).
 
 typhon_options:declared(machine_option, bind(X), atom, X).
+typhon_options:declared(machine_option, advertise(X), atom, X).
 typhon_options:declared(machine_option, swipl(X), atom, X).
 typhon_options:declared(machine_option, node(X), atom, X).
 

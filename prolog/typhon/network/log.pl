@@ -72,6 +72,7 @@ option_type(file(File), File, ground).
 option_type(mode(Mode), Mode, oneof([write, append])).
 option_type(name(Name), Name, atom).
 option_type(bind(Interface), Interface, atom).
+option_type(advertise(Address), Address, atom).
 option_type(port(Port), Port, between(0, 65535)).
 option_type(clock(Epoch, Rate), [Epoch, Rate], list(number)).
 
@@ -98,6 +99,7 @@ start(Name, File, Options, Address) :-
     debug(typhon(network), 'log server ~w writes ~p', [Address, File]).
 
 of_endpoint(bind(_)).
+of_endpoint(advertise(_)).
 of_endpoint(port(_)).
 
 %!  log_serve_end(+Address) is det.

@@ -35,8 +35,8 @@ by a request for hosts in a child. One order takes whole lists, so that a
 network of a thousand hosts needs few requests.
 
 Module `children` starts a child as `swipl -g node_main node_process.pl`. The
-first line of its standard input is node(Cookie, Secret, Interface, StopSeconds,
-Keys, Options). When the endpoint listens, and the journal, if any, is restored, the
+first line of its standard input is node(Cookie, Secret, At, StopSeconds,
+Keys, Options), where At is at(Interface, Advertised). When the endpoint listens, and the journal, if any, is restored, the
 child prints one line:
 
     typhon_node_process <Interface>:<Port> <Pid>
@@ -217,7 +217,7 @@ node_main :-
     set_stream(user_output, encoding(utf8)),
     set_stream(user_output, buffer(line)),
     read_term(user_input,
-              node(Cookie, Secret, Interface, Seconds, Keys, Options), []),
+              node(Cookie, Secret, At, Seconds, Keys, Options), []),
     skip(user_input, 0'\n),     % resets the column that both streams share
     setenv('TYPHON_COOKIE', Cookie),
     with_keys(Keys),
@@ -228,7 +228,7 @@ node_main :-
     parent_secret(Secret),
     assertz(child),
     output_begin,
-    catch(begin(Interface, Seconds, Options), error(Formal, Context),
+    catch(begin(At, Seconds, Options), error(Formal, Context),
           cannot_begin(Formal, Context)),
     endpoint_address(Endpoint),
     thread_create(watch_input, _, [alias(typhon_input), detached(true)]),
@@ -241,9 +241,9 @@ node_main :-
 %   Wait for the journal: the process that holds it may be about to end, like
 %   the children of a process that has died.
 
-begin(Interface, Seconds, Options) :-
+begin(at(Interface, Advertised), Seconds, Options) :-
     option(port(Port), Options, 0),
-    Runtime = [bind(Interface), port(Port)],
+    Runtime = [bind(Interface), advertise(Advertised), port(Port)],
     (   option(journal(Directory, How), Options)
     ->  Wait is Seconds+1,
         hosts_journal(Directory, [sync(How), wait(Wait)]),

@@ -77,6 +77,7 @@ typhon_options:declared(network_option, Option, Type, Value) :-
 option_type(processes(P), positive_integer, P).
 option_type(machines(Machines), list, Machines).
 option_type(bind(Interface), atom, Interface).
+option_type(advertise(Address), atom, Address).
 option_type(tls(Directory), atom, Directory).
 option_type(hosts(Options), list, Options).
 option_type(hop_time(Time), nonvar, Time).
@@ -96,6 +97,9 @@ option_type(restart(Restart), boolean, Restart).
 
 check_option(hosts(Options)) =>
     check_options(host_option, Options).
+check_option(advertise(Address)), sub_atom(Address, _, _, _, :) =>
+    throw(error(domain_error(advertised_address, Address),
+                context(_, 'without a port: each process has its own'))).
 check_option(log(_, Kinds)) =>
     must_be(list(event_kind), Kinds).
 check_option(hop_time(Time)) =>

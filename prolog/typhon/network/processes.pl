@@ -1,5 +1,5 @@
 :- module(typhon_processes,
-          [ nodes_start/5,              % +Network, +P, +Machines, +Interface,
+          [ nodes_start/5,              % +Network, +P, +Machines, +At,
                                         % :Options
             nodes_restart/3,            % +Network, :Options, :Restore
             nodes_stop/1                % +Network
@@ -52,7 +52,7 @@ there is one.
     wanted/1,                   % Network: its processes must stay
     child/3,                    % Network, P, Child
     lasting/1,                  % Network: its processes have journals
-    start/4,                    % Network, P, Machine, Interface
+    start/4,                    % Network, P, Machine, At
     at/3.                       % Network, P, Endpoint: where it listens
 
 %   A warning names at most so many hosts, and so many agents.
@@ -63,7 +63,7 @@ most_named(10).
                 *           STARTING           *
                 *******************************/
 
-%!  nodes_start(+Network, +P, +Machines, +Interface, :Options) is det.
+%!  nodes_start(+Network, +P, +Machines, +At, :Options) is det.
 %
 %   Start P processes; each of Machines runs a block of them. With `[local]` and
 %   P = 1 the hosts run in this process. call(Options, I, List) returns the
@@ -78,14 +78,14 @@ nodes_start(Network, 1, [local], _, _) :-
     !,
     current_prolog_flag(pid, Pid),
     node_came(Network, 1, local, Pid).
-nodes_start(Network, P, Machines, Interface, Options) :-
+nodes_start(Network, P, Machines, At, Options) :-
     message_queue_create(Queue),
     assertz(queue(Network, Queue)),
     length(Machines, M),
     forall(between(1, P, I),
-           ( At is (I - 1) * M // P + 1,
-             nth1(At, Machines, Machine),
-             assertz(start(Network, I, Machine, Interface)),
+           ( Nth is (I - 1) * M // P + 1,
+             nth1(Nth, Machines, Machine),
+             assertz(start(Network, I, Machine, At)),
              call(Options, I, ChildOptions),
              note_lasting(Network, ChildOptions),
              start(Network, I, ChildOptions) )),
@@ -118,8 +118,8 @@ note_lasting(Network, Options) :-
     ).
 
 start(Network, P, Options) :-
-    start(Network, P, Machine, Interface),
-    child_start(Network-P, Machine, Interface, Options,
+    start(Network, P, Machine, At),
+    child_start(Network-P, Machine, At, Options,
                 typhon_processes:event, Child),
     assertz(child(Network, P, Child)).
 

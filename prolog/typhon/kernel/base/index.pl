@@ -53,6 +53,7 @@ part_joins(keys,any,'options/identity').
 part_joins(keys,any,'options/trail').
 part_joins(link_option,cost,'tools/administration').
 part_joins(load_option,host,'tools/administration').
+part_joins(machine_option,advertise,network).
 part_joins(machine_option,bind,network).
 part_joins(machine_option,node,network).
 part_joins(machine_option,swipl,network).

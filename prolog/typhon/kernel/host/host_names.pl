@@ -5,7 +5,8 @@
           ]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module('../base/text', [is_printable/1]).
-:- use_module('../wire', [endpoint_address/1]).
+:- use_module('../wire', 
+              [endpoint_address/1, endpoint_parts/3, must_be_endpoint/1]).
 :- use_module(hosts, [host/3]).
 :- use_module(links, [host_linked/1]).
 
@@ -22,6 +23,7 @@ of the networks that this process started.
     elsewhere/2,                % ?Name, -Address: a host of a network that
                                 % this process started
     typhon_names:known/2,
+    prolog:error_message//1,
     error:has_type/2.
 
 %   Completion proposes the hosts of other processes by their addresses.
@@ -47,7 +49,12 @@ address_parts(Address, Name, Endpoint) :-
 
 error:has_type(host_address, Address) :-
     atom(Address),
-    is_address(Address, _, _).
+    is_address(Address, _, Endpoint),
+    endpoint_parts(Endpoint, _, _).
+
+prolog:error_message(type_error(host_address, Address)) -->
+    [ '~p is no address NAME@INTERFACE:PORT, with a name or an IPv4 \c
+       address (IPv6 addresses are not supported)'-[Address] ].
 
 is_address(Address, Name, Endpoint) :-
     address_parts(Address, Name, Endpoint),
@@ -62,6 +69,7 @@ is_address(Address, Name, Endpoint) :-
 %   of the networks that this process started has.
 %
 %   @error existence_error(host, Host)
+%   @error domain_error(endpoint_address, Endpoint) of an address
 %   @error ambiguous_host(Name, Addresses)
 
 host_resolve(Host, _) :-
@@ -76,7 +84,8 @@ host_resolve(Host, local(Name)) :-
     !.
 host_resolve(Host, remote(Host, Name, Endpoint)) :-
     is_address(Host, Name, Endpoint),
-    !.
+    !,
+    must_be_endpoint(Endpoint).
 host_resolve(Name, remote(Address, Name, Endpoint)) :-
     findall(Found, in_other_process(Name, Found), Found0),
     sort(Found0, Addresses),

@@ -67,6 +67,10 @@ endpoint with the other users of the process, see typhon_runtime.
 %       host may have a port of its own: the process listens at it, too, as
 %       long as the host runs
 %     - bind(+Interface): default localhost; only for the first host
+%     - advertise(+Address): the name or IPv4 address by which other machines
+%       reach this process, where that is not Interface, as behind NAT; with
+%       `:PORT` where the port differs, too; needed with bind('0.0.0.0'); only
+%       for the first host
 %     - tls(+Directory): the keys of this process, see doc/keys.md; all its
 %       connections are TLS 1.3, both sides with certificates; only for the
 %       first host
@@ -328,6 +332,7 @@ local_name(Host, Name) :-
 
 typhon_options:declared(host_option, port(X), between(0, 65535), X).
 typhon_options:declared(host_option, bind(X), atom, X).
+typhon_options:declared(host_option, advertise(X), atom, X).
 typhon_options:declared(host_option, capacity(X), nonneg, X).
 typhon_options:declared(host_option, capacity(X), oneof([inf]), X).
 typhon_options:declared(host_option, tokens(X), list, X).

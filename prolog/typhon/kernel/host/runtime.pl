@@ -20,7 +20,8 @@
 :- use_module('../program', [code_clear/0]).
 :- use_module('../wire',
               [ endpoint_address/1, endpoint_call/5, endpoint_listen/2,
-                endpoint_listen_end/1, endpoint_missed/2, endpoint_start/4,
+                endpoint_listen_end/1, endpoint_missed/2,
+                endpoint_option/1, endpoint_start/4,
                 endpoint_start_alone/1, endpoint_stop/0,
                 transport_disagrees/1 ]).
 :- use_module(time,
@@ -57,9 +58,9 @@ stopping the platform waits for them.
 %
 %   Start endpoint and time for User, any ground term, unless they run already.
 %   Endpoint is the address at which User is reached.  The first user decides
-%   with port(P), bind(Interface) and tls(Directory), which is by default that
-%   of the environment variable `TYPHON_TLS`.  Later users cannot change
-%   interface and keys.  For another port the process listens there, too, as
+%   with port(P), bind(Interface), advertise(Address), see endpoint_start/4, and
+%   tls(Directory), which is by default that of the environment variable
+%   `TYPHON_TLS`.  Later users cannot change interface, address and keys.  For another port the process listens there, too, as
 %   long as a user needs it.  time(Kind), see typhon_time, cannot be changed
 %   either; a user without it accepts any kind.  Where the runtime is apart the
 %   endpoint reaches no other process, and ports have no meaning.
@@ -87,13 +88,8 @@ acquire(User, Kind, Options, Endpoint) :-
     debug(typhon(host), '~p uses the process, at ~w', [User, Endpoint]).
 
 reached_at(Port, Endpoint) :-
-    endpoint_address(First),
-    atomic_list_concat([Interface,_], ':', First),
-    atomic_list_concat([Interface,Port], ':', Wanted),
     (   ( Port =:= 0 ; time_kind(Kind), time_apart(Kind, _) )
-    ->  Endpoint = First
-    ;   endpoint_address(Wanted)
-    ->  Endpoint = Wanted
+    ->  endpoint_address(Endpoint)
     ;   endpoint_listen(Port, Endpoint)
     ).
 
@@ -132,8 +128,9 @@ disagrees(Option) :-
     transport_disagrees(Option).
 disagrees(bind(Interface)) :-
     Interface \== localhost,
-    endpoint_address(Endpoint),
-    \+ atomic_list_concat([Interface,_], ':', Endpoint).
+    \+ endpoint_option(bind(Interface)).
+disagrees(advertise(Address)) :-
+    \+ endpoint_option(advertise(Address)).
 
 %!  runtime_release(+User) is det.
 %

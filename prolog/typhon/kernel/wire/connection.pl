@@ -25,12 +25,13 @@ connection on which the arbiter sends its count.
 
 :- use_module('../base/reports', [report/4]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(error), [domain_error/2, syntax_error/1]).
+:- use_module(library(error), [syntax_error/1]).
 :- use_module(library(settings), [setting/2]).
 :- autoload(library(socket),
               [ tcp_close_socket/1, tcp_connect/2, tcp_open_socket/3,
                 tcp_setopt/2, tcp_socket/1 ]).
 :- use_module('../base/monotonic', [monotonic_time/1]).
+:- use_module(addresses, [endpoint_parts/3, must_be_endpoint/1]).
 :- use_module(peer_cache, [peer_gone/1, peer_met/2]).
 :- use_module(handshake,
               [ authenticate/6, cookie/1, hello_codec/3, hello_peer/4,
@@ -51,6 +52,8 @@ connection on which the arbiter sends its count.
 
 :- multifile
     harmless/1,                 % Formal: a break that need not be reported
+    listens_at/3,               % Address, Interface, Port: this process listens
+                                % there, and Address is one of its own
     typhon_handshake:greeted/0.
 
 :- meta_predicate
@@ -97,18 +100,16 @@ report_refused(Ip, Formal, Stage) :-
     ).
 
 %   The address at which the peer claims to listen leads to its session, unless
-%   that address is meaningless here; Ip replaces 0.0.0.0.
+%   that address is meaningless here.
 
 reachable(_, _, Session) :-
     session_to_self(Session),
     !.
 reachable(Ip, Peer, Session) :-
     hello_peer(Peer, Process, _, Claimed),
-    address_parts(Claimed, Interface, Port),
-    (   Interface == '0.0.0.0'
-    ->  atomic_list_concat([Ip, Port], :, Address),
-        add_route(Address, Process, Session)
-    ;   loopback(Interface),
+    must_be_endpoint(Claimed),
+    endpoint_parts(Claimed, Interface, _),
+    (   loopback(Interface),
         \+ loopback(Ip)
     ->  true
     ;   add_route(Claimed, Process, Session)
@@ -130,8 +131,11 @@ loopback(Ip) :-
 outgoing(Address, Me) :-
     nb_setval(typhon_set_out, true),
     monotonic_time(Start),
-    catch(( address_parts(Address, Interface, Port),
-            connect(Interface, Port, Socket),
+    catch(( must_be_endpoint(Address),
+            endpoint_parts(Address, Interface, Port0),
+            ( listens_at(Address, At, Port) -> true
+            ; At-Port = Interface-Port0 ),
+            connect(At, Port, Socket),
             with_streams(open_streams(Socket, In, Out), In, Out,
                          meet(client(Start), In, Out, Me, true,
                               add_routes(Address, Interface)))
@@ -166,14 +170,6 @@ connect(Interface, Port, Socket) :-
           Error,
           ( tcp_close_socket(Socket),
             throw(Error) )).
-
-address_parts(Address, Interface, Port) :-
-    (   atomic_list_concat([Interface, PortText], :, Address),
-        atom_number(PortText, Port),
-        integer(Port)
-    ->  true
-    ;   domain_error(endpoint_address, Address)
-    ).
 
 with_streams(Open, In, Out, Goal) :-
     setup_call_cleanup(

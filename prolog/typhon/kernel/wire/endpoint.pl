@@ -6,13 +6,15 @@
             endpoint_listen/2,          % +Port, -Address
             endpoint_listen_end/1,      % +Address
             endpoint_address/1,         % ?Address
+            endpoint_option/1,          % ?Option
             endpoint_process/1          % -Id
           ]).
 
 /** <module> The endpoint: one per process
 
 An endpoint sends terms to the endpoints of other processes, and to itself,
-over TCP. It does not know of agents. Its address is an atom `Interface:Port`.
+over TCP. It does not know of agents. Its address is an atom `Interface:Port`,
+see typhon_addresses.
 Its process has a random id, which together with the number of this start shows
 peers whether they meet the same process again. Arriving terms go to hooks, one
 clause for each kind of message, in the module that owns the kind:
@@ -37,6 +39,7 @@ under the mutex of the endpoint.
 :- use_module(library(error),
               [existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(lists), [reverse/2]).
+:- use_module(library(option), [option/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- autoload(library(socket),
               [ tcp_bind/2, tcp_close_socket/1, tcp_listen/2,
@@ -47,6 +50,9 @@ under the mutex of the endpoint.
                 sync_changes/0 ]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module('../base/reports', [reports_end/0]).
+:- use_module(addresses,
+              [ announced/4, endpoint_parts/3, must_be_reachable/2,
+                stands_for_all/1 ]).
 :- use_module(acceptor, [accept_all/2, accept_no_more/0]).
 :- use_module(handshake, [cookie/1, hello/4, random_hex/2]).
 :- use_module(connection_manager, [manager_begin/1, manager_end/0]).
@@ -71,7 +77,8 @@ under the mutex of the endpoint.
     handed_over/2,                      % Token, Result
     connection/2,                       % Peer, State
     lent/1,                             % Thread
-    returned/0.
+    returned/0,
+    typhon_connection:listens_at/3.
 :- dynamic
     connection/2,
     lent/1.
@@ -81,20 +88,24 @@ under the mutex of the endpoint.
 
 :- dynamic
     closed/0,                           % peers are not accepted yet
-    listening/3.                        % Address, Socket, Acceptor: the
-                                        % address of the endpoint is the first
+    advertised/1,                       % Name or Name:Port, or `none`
+    listening/4.                        % Address, Interface:Port, Socket,
+                                        % Acceptor: the address of the endpoint
+                                        % is the first
 
 %!  endpoint_start(+Interface, +Port, +Options, -Address) is det.
 %
-%   Listen at Port of Interface; Port 0 is any free one. Options are for
-%   transports, see typhon_transport.
+%   Listen at Port of Interface; Port 0 is any free one.  Address is the one that
+%   peers get, by default Interface with the port.  Options are advertise(Name) or
+%   advertise('Name:Port') for another, and those of transports, see
+%   typhon_transport.
 %
 %   @error permission_error(start, endpoint, Address) if one is running
 %   @error socket_error(Code, Text): the port is taken, or the interface is
 %   unknown; the context names both
+%   @error errors of must_be_reachable/2
 
 endpoint_start(Interface, Port, Options, Address) :-
-    must_be(atom, Interface),
     must_be(nonneg, Port),
     with_mutex(typhon_endpoint, start(Options, Interface, Port, Address)).
 
@@ -103,25 +114,30 @@ start(_, _, _, _) :-
     !,
     permission_error(start, endpoint, Address).
 start(Options, Interface, Port, Address) :-
+    option(advertise(Advertised), Options, none),
     transport_begin(Options),
-    catch(start(Interface, Port, Address), Ball,
+    catch(start_at(at(Interface, Advertised), Port, Address), Ball,
           ( transport_end, throw(Ball) )).
 
-start(Interface0, Port0, Address) :-
+start_at(At0, Port0, Address) :-
     compiling_load([library(socket)]),
     cookie(_),
-    own_place(Interface0, Port0, Interface1, Port),
+    own_place(At0, Port0, at(Interface0, Advertised), Port1),
     until_opened,
-    (   Interface1 == localhost
+    (   Interface0 == localhost
     ->  Interface = '127.0.0.1'
-    ;   Interface = Interface1
+    ;   Interface = Interface0
     ),
-    listen(Interface, Port, Address, Socket),
+    must_be_reachable(Interface, Advertised),
+    listen(Interface, Port1, Port, Socket),
+    announced(Interface, Advertised, Port, Address),
+    retractall(advertised(_)),
+    assertz(advertised(Advertised)),
     own_start_next(Start),
     our_hello(Start, Address, Me),
     lending_anew,
     manager_begin(Me),
-    accept_at(Address, Socket, Me, acceptor),
+    accept_at(Address, Interface:Port, Socket, Me, acceptor),
     debug(typhon(session), 'endpoint: starts at ~w, start ~w',
           [Address, Start]).
 
@@ -134,9 +150,9 @@ until_opened :-
     ;   true
     ).
 
-accept_at(Address, Socket, Me, Name) :-
+accept_at(Address, Bound, Socket, Me, Name) :-
     wire_thread_create(accept_open(Socket, Me), Name, Acceptor),
-    assertz(listening(Address, Socket, Acceptor)).
+    assertz(listening(Address, Bound, Socket, Acceptor)).
 
 accept_open(Socket, Me) :-
     (   closed
@@ -150,12 +166,12 @@ accept_open(Socket, Me) :-
 %   Accept peers: the journal was read.
 
 endpoint_open :-
-    listening(Address, _, _),
+    listening(_, Bound, _, _),
     !,
-    own_id_note(Address),
+    own_id_note(Bound),
     sync_changes,
     retractall(closed),
-    forall(listening(_, _, Acceptor),
+    forall(listening(_, _, _, Acceptor),
            thread_send_message(Acceptor, endpoint_opens)).
 
 %!  endpoint_start_alone(+Address) is det.
@@ -174,25 +190,24 @@ start_alone(_) :-
 start_alone(Address) :-
     alone_begin(Address).
 
-%   listen(+Interface, +Port, -Address, -Socket): reuseaddr lets a new process
+%   listen(+Interface, +Port0, -Port, -Socket): reuseaddr lets a new process
 %   listen at the port as soon as the old one has stopped.  The socket gets a
 %   stream because child processes would inherit it otherwise.
 
-listen(Interface, Port, Address, Socket) :-
-    (   Port =:= 0
+listen(Interface, Port0, Port, Socket) :-
+    (   Port0 =:= 0
     ->  true                            % any free one
-    ;   Bound = Port
+    ;   Port = Port0
     ),
     tcp_socket(Socket),
     catch(( tcp_setopt(Socket, reuseaddr),
-            tcp_bind(Socket, Interface:Bound),
+            tcp_bind(Socket, Interface:Port),
             tcp_listen(Socket, 1024),
             tcp_open_socket(Socket, _, _)
           ),
           Error,
           ( tcp_close_socket(Socket),
-            blame(Error, Interface, Port) )),
-    atomic_list_concat([Interface, Bound], :, Address).
+            blame(Error, Interface, Port0) )).
 
 %   Name the port that is taken, or the interface that is not of this machine.
 
@@ -206,8 +221,10 @@ blame(Error, _, _) :-
 
 how_to_listen(eaddrinuse, How) =>
     How = '; choose another port, or port(0) for any free one'.
-how_to_listen(_, How) =>
+how_to_listen(eacces, How) =>
     How = ''.
+how_to_listen(_, How) =>
+    How = '; give a name or an IPv4 address of this machine'.
 
 our_hello(Start, Address, Me) :-
     endpoint_process(Process),
@@ -215,9 +232,9 @@ our_hello(Start, Address, Me) :-
 
 %!  endpoint_listen(+Port, -Address) is det.
 %
-%   Listen at a further Port, too, until endpoint_listen_end/1 or the end of the
-%   endpoint. A peer that connects there reaches the endpoint as at its first
-%   port.
+%   Listen at a further Port, too, unless it does, until endpoint_listen_end/1 or
+%   the end of the endpoint. A peer that connects there reaches the endpoint as at
+%   its first port.
 %
 %   @error existence_error(endpoint, running)
 
@@ -226,15 +243,21 @@ endpoint_listen(Port, Address) :-
     with_mutex(typhon_endpoint, listen_too(Port, Address)).
 
 listen_too(Port, Address) :-
-    (   listening(First, _, _)
+    listening(Address0, _:Port, _, _),
+    !,
+    Address = Address0.
+listen_too(Port, Address) :-
+    (   listening(First, Interface:_, _, _)
     ->  true
     ;   existence_error(endpoint, running)
     ),
-    atomic_list_concat([Interface, _], :, First),
     own_start(Start),
     our_hello(Start, First, Me),
-    listen(Interface, Port, Address, Socket),
-    accept_at(Address, Socket, Me, acceptor-Port),
+    listen(Interface, Port, _, Socket),
+    advertised(Advertised),
+    ( endpoint_parts(Advertised, Name, _) -> true ; Name = Advertised ),
+    announced(Interface, Name, Port, Address),
+    accept_at(Address, Interface:Port, Socket, Me, acceptor-Port),
     debug(typhon(session), 'endpoint: listens at ~w, too', [Address]).
 
 %!  endpoint_listen_end(+Address) is det.
@@ -252,7 +275,7 @@ listen_end(Address) :-
     ).
 
 listen_no_more(Address) :-
-    retract(listening(Address, Socket, Acceptor)),
+    retract(listening(Address, _, Socket, Acceptor)),
     !,
     wire_thread_end(Acceptor, stopped),
     tcp_close_socket(Socket).
@@ -269,10 +292,10 @@ endpoint_stop :-
     with_mutex(typhon_endpoint, stop).
 
 stop :-
-    listening(Address, _, _),
+    listening(Address, _, _, _),
     !,
     debug(typhon(session), 'endpoint: stops at ~w', [Address]),
-    findall(Each, listening(Each, _, _), All),
+    findall(Each, listening(Each, _, _, _), All),
     reverse(All, LastToFirst),
     maplist(listen_no_more, LastToFirst),
     setting(flush_time, Seconds),
@@ -295,10 +318,28 @@ stop :-
 %   Address is one of this process: the first, if unbound.
 
 endpoint_address(Address) :-
-    listening(Address, _, _),
+    listening(Address, _, _, _),
     !.
 endpoint_address(Address) :-
     alone(Address).
+
+%   A network may not lead from the address that peers use back to this process.
+
+typhon_connection:listens_at(Address, Interface, Port) :-
+    listening(Address, Bound:Port, _, _),
+    !,
+    ( stands_for_all(Bound) -> Interface = '127.0.0.1' ; Interface = Bound ).
+
+%!  endpoint_option(?Option) is nondet.
+%
+%   The endpoint listens with Option, bind(Interface) or advertise(Address).
+
+endpoint_option(bind(Interface)) :-
+    listening(_, Interface:_, _, _),
+    !.
+endpoint_option(advertise(Address)) :-
+    advertised(Address),
+    listening(_, _, _, _).
 
 		 /*******************************
 		 *          PROCESS ID          *
@@ -308,36 +349,42 @@ endpoint_address(Address) :-
     process/1,                          % Id
     starts/1.                           % Count
 
-%!  own_place(+Interface0, +Port0, -Interface, -Port) is det.
+%!  own_place(+At0, +Port0, -At, -Port) is det.
 %
-%   The interface and port to listen at.  A process that has a journal keeps the
-%   id and the place that it had when the journal was last open.  Peers
-%   recognise such a process by the first letter of its id, see
-%   endpoint_lasting/1.
+%   The interface and port to listen at, and the name to advertise; At is
+%   at(Interface, Advertised).  A process that has a journal keeps the id and the
+%   place that it had when the journal was last open.  Peers recognise such a
+%   process by the first letter of its id, see endpoint_lasting/1.
 
-own_place(Interface0, Port0, Interface, Port) :-
+own_place(At0, Port0, At, Port) :-
     durable_opened(_),
     !,
     retractall(process(_)),
     (   durable_item(endpoint, any, _, _,
-                     endpoint(Process, Start, Interface1, Port1))
+                     endpoint(Process, Start, Noted, Port1))
     ->  retractall(starts(_)),
         assertz(starts(Start)),
         ( Port0 =:= 0 -> Port = Port1 ; Port = Port0 ),
-        ( Interface0 == localhost -> Interface = Interface1
-        ; Interface = Interface0 )
+        noted_place(At0, Noted, At)
     ;   random_hex(8, New),
         atom_concat(j, New, Process),
         Port = Port0,
-        Interface = Interface0
+        At = At0
     ),
     assertz(process(Process)).
-own_place(Interface, Port, Interface, Port) :-
+own_place(At, Port, At, Port) :-
     (   process(Process),
         sub_atom(Process, 0, _, _, j)
     ->  retractall(process(_))
     ;   true
     ).
+
+%   Noted is the interface alone where the process announced that.
+
+noted_place(at(localhost, none), Noted, At) :-
+    !,
+    ( Noted = at(_, _) -> At = Noted ; At = at(Noted, none) ).
+noted_place(At, _, At).
 
 %!  own_start(-Start) is semidet.
 %
@@ -359,16 +406,20 @@ own_start_next(Start) :-
     Start is Start0+1,
     assertz(starts(Start)).
 
-%!  own_id_note(+Address) is det.
+%!  own_id_note(+Bound) is det.
 %
-%   Write the id and the address to the journal.
+%   Write the id and the place, with Bound, which is Interface:Port, to the
+%   journal.
 
-own_id_note(Address) :-
-    atomic_list_concat([Interface, PortText], :, Address),
-    atom_number(PortText, Port),
+own_id_note(Interface:Port) :-
+    advertised(Advertised),
+    (   Advertised == none
+    ->  Noted = Interface
+    ;   Noted = at(Interface, Advertised)
+    ),
     endpoint_process(Process),
     starts(Start),
-    durable_put(endpoint, '', 0, endpoint(Process, Start, Interface, Port)).
+    durable_put(endpoint, '', 0, endpoint(Process, Start, Noted, Port)).
 
 %!  endpoint_process(-Id) is det.
 %
