@@ -26,6 +26,7 @@ and failures until it is stopped.
 :- use_module(library(main), [argv_options/3, main/0]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(socket), [gethostname/1]).
+:- use_module('../prolog/typhon/kernel/base/process_setup', [on_stop_signals/1]).
 :- use_module(library(uri), [uri_components/2, uri_data/3]).
 :- use_module(library(random),
               [random/1, random_between/3, random_member/2]).
@@ -38,8 +39,7 @@ main(Argv) :-
     argv_options(Argv, _, Options),
     option(port(Port), Options, 8080),
     option(seed(Seed), Options, 1),
-    on_signal(int, _, typhon_demo_page:stop),
-    on_signal(term, _, typhon_demo_page:stop),
+    on_stop_signals(stop),
     thread_create(demo(Port, Seed), Demo),
     thread_get_message(stop),
     thread_send_message(Demo, stop),

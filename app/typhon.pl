@@ -11,7 +11,7 @@ The tables of commands.pl define the whole interface; run/3 has one clause
 for each command, and uses only predicates of library(typhon).
 
 *Threading*: the main thread only.  A command that runs until it is
-stopped waits for a message, which the handlers of SIGINT and SIGTERM send.
+stopped waits for a message, which the handlers of signals send.
 */
 
 :- use_module('../prolog/typhon').
@@ -20,6 +20,7 @@ stopped waits for a message, which the handlers of SIGINT and SIGTERM send.
               [print_agents/2, print_hosts/1, print_tree/1]).
 :- use_module('../prolog/typhon/kernel/host/runtime',
               [runtime_acquire/2, runtime_release/1]).
+:- use_module('../prolog/typhon/kernel/base/process_setup', [process_setup/0]).
 :- use_module('../prolog/typhon/tools/page', [page_export/3, page_serve/2]).
 :- use_module(typhon/commands, [command/4, footer/2, option/5]).
 :- use_module(typhon/diagnose, [diagnose/1]).
@@ -77,6 +78,7 @@ opt_meta(Option, Meta) :-
                 *******************************/
 
 main(Argv) :-
+    process_setup,
     catch(dispatch(Argv), error(Formal, Context),
           ( nth0(0, Argv, Command),
             complain(Command, error(Formal, Context)),
@@ -146,7 +148,7 @@ with_keys(Options) :-
 %   A query needs an endpoint for its answer.
 
 run_connected(Command, Arguments, Options) :-
-    (   serves(Command, Options)
+    (   needs_no_endpoint(Command, Options)
     ;   Command == diagnose,
         ( Arguments = [_,_] ; bridge_named(Arguments) )
     ),
@@ -165,11 +167,14 @@ run_connected(Command, Arguments, Options) :-
     and_then(run(Command, Arguments, Options),
              runtime_release(client)).
 
-serves(host, _).
-serves(network, _).
-serves(journal, _).
-serves(log, Options) :-
-    memberchk(serve(true), Options).
+%   It starts one itself, or reads files alone.
+
+needs_no_endpoint(Command, _) :-
+    memberchk(Command, [host, network, journal, check, story, picture]).
+needs_no_endpoint(log, Options) :-
+    ( memberchk(serve(true), Options) ; \+ memberchk(host(_), Options) ).
+needs_no_endpoint(page, Options) :-
+    memberchk(export(_), Options).
 
 check_count(_, Positional, Arguments) :-
     length(Arguments, Count),

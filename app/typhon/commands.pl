@@ -14,7 +14,7 @@
 %   Count is the number of Arguments, or Min-Max.
 
 command(host, 'NAME', 1,
-        'start a host and run it until SIGTERM or SIGINT').
+        'start a host and run it until SIGTERM, SIGHUP or SIGINT').
 command(network, 'TOPOLOGY', 1,
         'start a network, such as grid(2,3), and run it until Ctrl-C').
 command(check, 'PROGRAM ...', 1-1000,
@@ -72,7 +72,7 @@ footer(remote,
        'Exit status 0: the goal succeeded. Output of the goal is printed.').
 footer(remote, 'Variables that begin with _ are not printed.').
 footer(page, 'Prints the link, which authorizes all orders of the page. Runs until').
-footer(page, 'SIGTERM or SIGINT. With LOG it writes a file for a browser.').
+footer(page, 'SIGTERM, SIGHUP or SIGINT. With LOG it writes a file for a browser.').
 footer(keys,
        'Copy DIR/NAME to the machine of NAME: host_start(H, [tls(DIR)]).').
 footer(stop, 'A command `host` or `network` ends with its host.').

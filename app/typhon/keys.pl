@@ -242,7 +242,7 @@ private(Directory, File) :-
 write_file(Directory, Name, Text) :-
     directory_file_path(Directory, Name, File),
     setup_call_cleanup(
-        open(File, write, Out),
+        open(File, write, Out, [encoding(utf8)]),
         write(Out, Text),
         close(Out)).
 

@@ -6,8 +6,11 @@
 /** <module> Commands that run until they are stopped
 
 *Threading*: the main thread only; it waits for a message, which the handlers
-of SIGINT and SIGTERM send.
+of signals send.
 */
+
+:- use_module('../../prolog/typhon/kernel/base/process_setup',
+              [on_stop_signals/1]).
 
 :- meta_predicate
     run_until_stopped(0, 0, 0),
@@ -17,14 +20,14 @@ of SIGINT and SIGTERM send.
 
 %!  run_until_stopped(:Start, :Report, :Stop) is semidet.
 %
-%   Calls Start and Report, waits for SIGINT or SIGTERM, and calls Stop.
+%   Calls Start and Report, waits for SIGTERM, SIGINT or SIGHUP, and
+%   calls Stop.
 %
 %   All calls are in a thread of its own: while the main thread creates
 %   threads, a signal may reach a new thread, and would be lost.
 
 run_until_stopped(Start, Report, Stop) :-
-    on_signal(term, _, typhon_app_serving:stop_requested),
-    on_signal(int, _, typhon_app_serving:stop_requested),
+    on_stop_signals(stop_requested),
     thread_create(serve(Start, Report, Stop), Server),
     thread_send_message(Server, start),
     thread_get_message(serving(Event)),

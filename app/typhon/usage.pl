@@ -21,7 +21,7 @@
 %
 %   Prints Error, which Command has raised, and a hint.
 
-complain(_, error(io_error(write, Stream), _)) :-
+complain(_, error(io_error(write, Stream), context(_, 'Broken pipe'))) :-
     stream_property(Stream, alias(user_output)),
     !.                                  % its reader, as head(1), closed it
 complain(Command, Error) :-

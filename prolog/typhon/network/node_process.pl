@@ -10,6 +10,8 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../kernel/base/error_text', [error_text/2, print_error/2]).
 :- use_module('../kernel/base/durable_changes', [output_waits/0]).
+:- use_module('../kernel/base/process_setup',
+              [on_stop_signals/1, process_setup/0]).
 :- use_module('../kernel/wire',
               [ arrival_permitted/4, peer_expect/1, peer_expect_no_more/1,
                 endpoint_address/1, endpoint_flush/2, endpoint_reply/2 ]).
@@ -45,8 +47,8 @@ If the child cannot start, the line is `typhon_node_process_error <Error>`, and
 the process ends.
 
 After that orders arrive over the wire, as requests of kind `node` with Secret. The process
-stops in order when its standard input ends, or on SIGTERM and SIGINT: hosts
-stop first, then the process sends its output. The process ends at most
+stops in order when its standard input ends, or on SIGTERM, SIGINT and
+SIGHUP: hosts stop first, then the process sends its output. The process ends at most
 StopSeconds later, even if a thread hangs.
 
 *Threading*: order_do/2 in any thread. In a child the main thread carries out
@@ -212,6 +214,7 @@ stop_host(Name) :-
 %   The main goal of a child.  Never returns: the process ends.
 
 node_main :-
+    process_setup,
     load_platform,
     set_stream(user_input, encoding(utf8)),
     set_stream(user_output, encoding(utf8)),
@@ -223,8 +226,7 @@ node_main :-
     with_keys(Keys),
     thread_create(ensure_end(Seconds), _,
                   [alias(typhon_end), detached(true)]),
-    on_signal(term, _, typhon_node_process:on_stop_signal),
-    on_signal(int, _, typhon_node_process:on_stop_signal),
+    on_stop_signals(on_stop_signal),
     parent_secret(Secret),
     assertz(child),
     output_begin,

@@ -278,7 +278,7 @@ load(cert, File, Pem) :-
     read_file_to_string(File, Pem, []).
 load(Which, File, Loaded) :-
     setup_call_cleanup(
-        open(File, read, In),
+        open(File, read, In, [type(binary)]),
         load_from(Which, In, Loaded),
         close(In)).
 

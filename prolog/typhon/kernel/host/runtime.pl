@@ -14,6 +14,7 @@
 :- use_module('../base/prolog_faults',
               [collect_clauses_less_often/0, forget_erased/0, functors_room/0]).
 :- use_module('../base/on_demand', [on_demand_load/2]).
+:- use_module('../base/process_setup', [descriptors_open/0]).
 :- use_module('../base/own_thread',
               [in_own_thread/1, own_thread_start/0, own_thread_stop/0]).
 :- use_module('../base/durable_changes', [durable_end/0]).
@@ -94,6 +95,7 @@ reached_at(Port, Endpoint) :-
     ).
 
 start(Kind, Options) :-
+    descriptors_open,
     collect_clauses_less_often,
     own_thread_start,
     catch(( monotonic_start,

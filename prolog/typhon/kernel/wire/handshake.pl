@@ -32,6 +32,7 @@ fact; two threads that read it at once store the same.
 
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [must_be/2, permission_error/3, syntax_error/1]).
+:- use_module(library(lists), [max_list/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(sha), [hash_atom/2, hmac_sha/4]).
 :- use_module('../base/private', [private_new/2]).
@@ -296,13 +297,16 @@ random_hex(Count, Hex) :-
 %   with random content on first use.
 %
 %   @error permission_error(use, cookie_file, File) if it belongs to another user,
-%   others may read or write it, or it has no cookie; the context says which
+%   others may read or write it, or it has no cookie of ASCII characters; the
+%   context says which
 
 cookie(Cookie) :-
-    getenv('TYPHON_COOKIE', Value),
+    catch(getenv('TYPHON_COOKIE', Value), error(syntax_error(_), _),
+          not_ascii('TYPHON_COOKIE')),  % no text of this locale
     Value \== '',
     !,
-    atom_string(Value, Cookie).
+    atom_string(Value, Cookie),
+    must_be_ascii(Cookie, 'TYPHON_COOKIE').
 cookie(Cookie) :-
     cookie_file(File),
     (   exists_file(File)
@@ -321,22 +325,46 @@ cookie_file(File) :-
     (   getenv('TYPHON_COOKIE_FILE', File0),
         File0 \== ''
     ->  true
-    ;   File0 = '~/.typhon.cookie'
+    ;   has_home
+    ->  File0 = '~/.typhon.cookie'
+    ;   unfit('~/.typhon.cookie', 'HOME is not set; give TYPHON_COOKIE_FILE \c
+                                   or TYPHON_COOKIE')
     ),
     expand_file_name(File0, [File|_]).
+
+has_home :-
+    (   current_prolog_flag(windows, true)
+    ->  true
+    ;   getenv('HOME', Home),
+        Home \== ''
+    ).
 
 read_cookie(File, Cookie) :-
     check_private(File),
     setup_call_cleanup(
-        open(File, read, In),
+        open(File, read, In, [encoding(utf8)]),
         read_string(In, "\n", "\r", _, Line),
         close(In)),
+    must_be_ascii(Line, File),
     (   string_length(Line, Length),
         Length >= 16
     ->  Cookie = Line
     ;   unfit(File, 'its first line has less than 16 characters; without \c
                     the file a new one is made')
     ).
+
+%   The bytes of other characters depend on the locale.
+
+must_be_ascii(Cookie, Source) :-
+    string_codes(Cookie, Codes),
+    max_list([0|Codes], Max),
+    (   Max < 128
+    ->  true
+    ;   not_ascii(Source)
+    ).
+
+not_ascii(Source) :-
+    unfit(Source, 'a cookie has ASCII characters only').
 
 unfit(File, Why) :-
     throw(error(permission_error(use, cookie_file, File), context(_, Why))).
@@ -374,4 +402,6 @@ shell_word(Text, Word) :-
 make_cookie(File) :-
     random_hex(32, Cookie),
     atom_concat(Cookie, '\n', Line),
-    private_new(File, Line).
+    catch(private_new(File, Line), error(_, _),
+          unfit(File, 'it cannot be made there; give TYPHON_COOKIE_FILE or \c
+                       TYPHON_COOKIE')).
