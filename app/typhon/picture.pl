@@ -5,7 +5,7 @@
 :- use_module(library(lists), [member/2, nth0/3, nth1/3]).
 :- use_module(library(option), [option/3]).
 :- use_module('../../prolog/typhon', [log_events/2]).
-:- use_module('../../prolog/typhon/kernel/base/output_files', [not_a_log/1]).
+:- use_module('../../prolog/typhon/kernel/base/output_files', [output_file/2]).
 :- use_module('../../prolog/typhon/tools/event_text', [short_name/2]).
 :- use_module(colours, [colours/3]).
 :- use_module(spacetime, [spacetime/2]).
@@ -29,7 +29,7 @@ picture is SVG with lines and text only.
 %   Fails if that part has no events.
 
 picture(LogFile, SvgFile, Options) :-
-    not_a_log(SvgFile),
+    output_file(picture, SvgFile),
     log_events(LogFile, Events),
     spacetime(Events, world(All, Hosts, Agents, Stays, Hops, Letters, Marks)),
     part(All, Options, Span),

@@ -6,6 +6,7 @@
             log_goes_on/2               % +File, +Size
           ]).
 :- use_module(library(error), [existence_error/2]).
+:- use_module('../kernel/base/output_files', [output_file/2]).
 :- use_module('../kernel/base/private', [private_open/4]).
 :- autoload(library(readutil), [read_line_to_string/2]).
 
@@ -34,10 +35,11 @@ cut short by a crash costs only that line.
 %   Open File to write events, new (`write`) or at its end (`append`).
 %
 %   @error existence_error(directory, Dir), permission_error(open,
-%   source_sink, File)
+%   source_sink, File), permission_error(overwrite, log, File)
 
 log_open(File, Mode, Stream) :-
     may_write(File),
+    output_file(log, File),
     catch(private_open(File, Mode, Stream,
                        [ encoding(ascii), newline(posix), buffer(full) ]),
           error(existence_error(_, _), _),
@@ -61,6 +63,7 @@ log_size(File, Size) :-
 %   Truncate File to Size, or empty it if it is shorter.
 
 log_goes_on(File, Size0) :-
+    output_file(log, File),
     size_file(File, Now),
     (   Now >= Size0
     ->  Size = Size0

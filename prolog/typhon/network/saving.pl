@@ -11,7 +11,7 @@
 :- use_module(library(sha), [hash_atom/2, sha_hash/3]).
 :- use_module('../kernel/base/private', [private_write/2]).
 :- use_module('../kernel/base/monotonic', [monotonic_time/1]).
-:- use_module('../kernel/base/output_files', [not_a_log/1]).
+:- use_module('../kernel/base/output_files', [output_file/2]).
 :- use_module('../kernel/base/text', [term_text/2, text_term/2]).
 :- use_module('../kernel/host',
               [context_now/2, time_due/3, time_kind/1, time_now/1]).
@@ -238,7 +238,7 @@ format_version(1).
 
 saved_write(Spec, Terms) :-
     absolute_file_name(Spec, File),
-    not_a_log(File),
+    output_file(saved_network, File),
     header(Header),
     private_write(File, write_all([Header|Terms])).
 

@@ -4,6 +4,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(terms), [mapargs/3]).
 :- use_module('../kernel/base/error_text', [abridged/3, print_error/2]).
+:- use_module('../kernel/base/output_files', [output_file/2]).
 :- use_module('../kernel/base/private', [private_open/4]).
 :- use_module('../kernel/base/text', [write_portable/3]).
 :- use_module('../kernel/base/trees', [is_tree/2]).
@@ -30,17 +31,23 @@ With the option audit(File) each security event appends a line to File,
     typhon_host_parts:changes/2,
     typhon_host_parts:check/1,
     typhon_host_parts:part/4,
-    typhon_options:declared/4.
+    typhon_options:declared/4,
+    typhon_output_files:begins/2.
+
+typhon_output_files:begins(audit, "audit(").
 
 typhon_options:declared(host_option, peer(Rules), list, Rules).
 typhon_options:declared(host_option, audit(File), atom, File).
 
 typhon_host_parts:check(Options) :-
-    forall(member(peer(Rules), Options), must_be_peer_rules(Rules)).
+    forall(member(peer(Rules), Options), must_be_peer_rules(Rules)),
+    forall(member(audit(File), Options), output_file(audit, File)).
 
 typhon_host_parts:changeable(audit(_)).
 typhon_host_parts:changeable(peer(_)).
 
+typhon_host_parts:changes(audit(File), _) :-
+    output_file(audit, File).
 typhon_host_parts:changes(peer(Rules), _) :-
     must_be_peer_rules(Rules).
 

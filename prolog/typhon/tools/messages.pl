@@ -56,8 +56,11 @@ prolog:error_message(permission_error(start, host, Host)) -->
     [ 'There is a host ~p here already'-[Host] ].
 prolog:error_message(permission_error(start, page, Port)) -->
     [ 'There is a page already, at port ~w'-[Port] ].
-prolog:error_message(permission_error(overwrite, log, File)) -->
-    [ '~w is a log, and is not overwritten: name another file'-[File] ].
+prolog:error_message(permission_error(overwrite, Kind, File)) -->
+    { atomic_list_concat(Words, '_', Kind),
+      atomic_list_concat(Words, ' ', Text) },
+    [ '~w is not overwritten, as it is no ~w: name another file'-
+      [File, Text] ].
 prolog:error_message(existence_error(log_events, File)) -->
     [ '~w has no events: it is not a log, or is empty'-[File] ].
 prolog:error_message(permission_error(carry, virtual_time, Option)) -->

@@ -1,28 +1,45 @@
 :- module(typhon_output_files,
-          [ not_a_log/1                 % +File
+          [ output_file/2               % +Kind, +File
           ]).
 :- use_module(library(error), [permission_error/3]).
 
-/** <module> Files that may be replaced
+/** <module> Files that an output may replace or extend
+
+A file that a command reads, or that holds another thing than the output, is kept:
+arguments the wrong way round destroy nothing.
 
 *Threading*: any thread.
 */
 
-%!  not_a_log(+File) is det.
-%
-%   File may be replaced by an output other than a log: it does not exist, or
-%   does not begin with an event.
-%
-%   @error permission_error(overwrite, log, File)
+:- multifile
+    begins/2.                   % Kind, Text: files of Kind begin with Text
 
-not_a_log(File) :-
+begins(log, "event(").
+begins(page, "<!doctype html>").
+begins(picture, "<svg").
+begins(saved_network, "typhon_saved(").
+begins(restore_point, "restore_point(").
+
+%!  output_file(+Kind, +File) is det.
+%
+%   An output of Kind may be written to File: there is no such file, or it is
+%   empty, or begins as an output of that Kind.  Devices and pipes may be written.
+%
+%   @error permission_error(overwrite, Kind, File)
+
+output_file(Kind, File) :-
     exists_file(File),
+    \+ size_file(File, 0),
+    begins(Kind, Text),
+    \+ starts_with(File, Text),
+    !,
+    permission_error(overwrite, Kind, File).
+output_file(_, _).
+
+starts_with(File, Text) :-
+    string_length(Text, Length),
     access_file(File, read),
     setup_call_cleanup(
         open(File, read, In, [type(binary)]),
-        peek_string(In, 6, Start),
-        close(In)),
-    Start == "event(",
-    !,
-    permission_error(overwrite, log, File).
-not_a_log(_).
+        read_string(In, Length, Text),
+        close(In)).

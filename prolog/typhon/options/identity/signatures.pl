@@ -26,6 +26,7 @@ put into them.
 :- use_module(library(lists), [member/2]).
 :- autoload(library(terms), [mapsubterms/3]).
 :- autoload('../keys', [keys_sign/3, keys_verify/4]).
+:- use_module('../../kernel/base/output_files', [output_file/2]).
 :- use_module('../../kernel/program',
               [ clause_parts/3, payload_file/1, payload_load/2,
                 program_file/2, program_hash/2, program_read/7 ]).
@@ -94,6 +95,10 @@ signature_read(File, Hash) :-
     signature_keep(Hash, Signature).
 signature_read(_, _).
 
+:- multifile typhon_output_files:begins/2.
+
+typhon_output_files:begins(signature, "signed(").
+
 %!  signature_make(+File, +Hash, +Keys) is det.
 %
 %   Sign Hash, that of the code in File, with the keys in the directory Keys,
@@ -103,6 +108,7 @@ signature_make(File, Hash, Keys) :-
     signed_text(Hash, Text),
     keys_sign(Keys, Text, Signature),
     atom_concat(File, '.sig', Beside),
+    output_file(signature, Beside),
     setup_call_cleanup(
         open(Beside, write, Out, [encoding(utf8)]),
         format(Out, '~q.~n', [signed(Hash, Signature)]),

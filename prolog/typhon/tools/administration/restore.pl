@@ -7,7 +7,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module('../../kernel/base/options', [check_options/2]).
 :- use_module('../../kernel/base/private', [private_open/4]).
-:- use_module('../../kernel/base/output_files', [not_a_log/1]).
+:- use_module('../../kernel/base/output_files', [output_file/2]).
 :- use_module('../../kernel/base/text', [write_portable/3]).
 :- use_module('../../kernel/program',
               [ code_receive/2, code_extras/2, code_sent/2, code_unwrapped/3,
@@ -86,7 +86,7 @@ format_version(1).
 %   restore point in File is kept.
 
 write_image(File, Image) :-
-    not_a_log(File),
+    output_file(restore_point, File),
     with_output_to(string(Text), forall(line(Image, Line), write_line(Line))),
     setup_call_cleanup(
         private_open(File, write, Out, [encoding(utf8)]),

@@ -12,7 +12,7 @@
 :- use_module(library(sgml), [xml_quote_cdata/3]).
 :- use_module(library(sha), [sha_hash/3]).
 :- use_module('../../kernel/base/json', [json_text/2]).
-:- use_module('../../kernel/base/output_files', [not_a_log/1]).
+:- use_module('../../kernel/base/output_files', [output_file/2]).
 :- use_module('../../network', [log_events/2]).
 :- use_module('../../tools', [own_event/1]).
 :- use_module(guard, [page_file/3]).
@@ -201,11 +201,11 @@ library('uPlot.iife.min.js').
 %   @error existence_error(source_sink, LogFile), permission_error(open,
 %   source_sink, File)
 %   @error existence_error(log_events, LogFile): there are none in it
-%   @error permission_error(overwrite, log, File): File is a log
+%   @error permission_error(overwrite, page, File): File is no such page
 %   @error existence_error(page_tool, Name) before `make page-tools`
 
 replay_export(LogFile, File, Options) :-
-    not_a_log(File),
+    output_file(page, File),
     replay_dict(LogFile, Options, Replay),
     (   Replay.events == []
     ->  existence_error(log_events, LogFile)
