@@ -6,7 +6,7 @@
 :- use_module('../prolog/typhon/kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../prolog/typhon').
 :- use_module('../prolog/typhon/bridges/helper', [helper_file/2]).
-:- use_module('../prolog/typhon/kernel/base/json', [atom_json_dict/3]).
+:- use_module('../prolog/typhon/kernel/base/json', [json_text/2]).
 :- use_module('../prolog/typhon/bridges/ros/connection', [node_python/2]).
 :- use_module('../agents/allocation/operator').
 :- use_module(library(apply), [maplist/2, maplist/4]).
@@ -66,8 +66,7 @@ world(Python, world(Pid, In)) :-
     findall(Name-[X,Y], rover(Name, p(X, Y)), Rovers),
     findall([X,Y], parcel(_, p(X, Y), _), Parcels),
     dict_pairs(Positions, _, Rovers),
-    atom_json_dict(Scene, _{rovers:Positions, parcels:Parcels},
-                   [as(atom), width(0)]),
+    json_text(_{rovers:Positions, parcels:Parcels}, Scene),
     process_create(Python, [File, Scene],
                    [stdin(pipe(In)), stdout(pipe(Out)), process(Pid)]),
     read_line_to_string(Out, "ready"),

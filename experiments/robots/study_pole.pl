@@ -5,7 +5,7 @@
               [ agent_create/3, agent_join/3, agent_send/2,
                 network_property/2 ]).
 :- use_module('../../agents/sync/operator', [sequence_start/5]).
-:- use_module('../../prolog/typhon/kernel/base/json', [json_read_dict/2]).
+:- use_module('../../prolog/typhon/kernel/base/json', [json_dict/2]).
 :- use_module('../../prolog/typhon/kernel/program/paths', []).
 :- use_module('../sync/metrics',
               [ executions/2, from_start/2, idle_time/2, marks/3,
@@ -18,6 +18,7 @@
 :- use_module(library(lists),
               [append/2, last/2, member/2, memberchk/2, nth1/3]).
 :- use_module(library(pairs), [pairs_values/2]).
+:- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(solution_sequences), [distinct/2]).
 
 study(pole, "Four robots carry a pole").
@@ -156,9 +157,8 @@ measure(tilt, View, Most) :-
     aggregate_all(max(T), tilt(View, _, T), Most).
 measure(tilt_limit, _, Limit) :-
     scene_file(pole, File),
-    setup_call_cleanup(open(File, read, In, [encoding(utf8)]),
-                       json_read_dict(In, Scene),
-                       close(In)),
+    read_file_to_string(File, Text, [encoding(utf8)]),
+    json_dict(Text, Scene),
     Limit = Scene.pole.limit.
 measure(over, View, Seconds) :-
     measure(tilt_limit, View, Limit),

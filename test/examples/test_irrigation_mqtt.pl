@@ -9,7 +9,7 @@
 :- use_module('../lib/brokers').
 :- use_module('../lib/fixtures').
 :- use_module(library(debug), [assertion/1]).
-:- use_module(library(http/json), [atom_json_dict/3]).
+:- use_module(library(typhon/kernel/base/json), [json_dict/2]).
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
 
@@ -17,7 +17,7 @@ gardening(Broker, Order) :-
     broker_url(Broker, URL),
     capturing(mqtt_start(field1, URL, []), _),
     client_receives(Broker, ['-t', 'field/1/valve', '-C', 1], gardener, [Line]),
-    atom_json_dict(Line, Order, []).
+    json_dict(Line, Order).
 
 gardener :-
     project_file('examples/applications/irrigation/gardener.pl', Program),

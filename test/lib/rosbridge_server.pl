@@ -13,7 +13,8 @@
 :- use_module(library(http/thread_httpd)).
 :- use_module(library(http/websocket)).
 :- use_module(library(lists), [member/2, memberchk/2]).
-:- use_module('../../prolog/typhon/kernel/base/json', [atom_json_dict/3]).
+:- use_module('../../prolog/typhon/kernel/base/json',
+              [json_dict/2, json_text/2]).
 
 /** <module> A stand-in for rosbridge_server
 
@@ -118,7 +119,7 @@ listen(Client, Socket) :-
     ).
 
 handle_text(Client, Text) :-
-    catch(atom_json_dict(Text, Frame, []), error(_, _), fail),
+    catch(json_dict(Text, Frame), error(_, _), fail),
     is_dict(Frame),
     !,
     assertz(frame(Frame)),
@@ -140,7 +141,7 @@ complain(Client, Frame, Why) :-
 
 say(Client, What) :-
     (   is_dict(What)
-    ->  atom_json_dict(Text, What, [as(string), width(0)])
+    ->  json_text(What, Text)
     ;   Text = What
     ),
     (   client(Client, Socket)

@@ -3,7 +3,8 @@
             rosbridge_publish/2,        % +Topic, +Message
             rosbridge_stop/1            % +Port
           ]).
-:- use_module('../../../prolog/typhon/kernel/base/json', [atom_json_dict/3]).
+:- use_module('../../../prolog/typhon/kernel/base/json',
+              [json_dict/2, json_text/2]).
 :- use_module(library(http/http_stream), []).
 :- use_module(library(http/thread_httpd),
               [http_server/2, http_spawn/2, http_stop_server/2]).
@@ -75,7 +76,7 @@ listen(Client, Socket) :-
     catch(ws_receive(Socket, Message, []), error(_, _), fail),
     Message.opcode \== close,
     !,
-    atom_json_dict(Message.data, Frame, []),
+    json_dict(Message.data, Frame),
     (   catch(frame(Frame.op, Client, Frame), error(_, _), fail)
     ->  true
     ;   say(Client, _{op:status, level:error, msg:"not understood"})
@@ -110,7 +111,7 @@ frame("call_service", Client, Frame) :-
                    values:Values, result:Result }).
 
 say(Client, Frame) :-
-    atom_json_dict(Text, Frame, [as(string), width(0)]),
+    json_text(Frame, Text),
     (   client(Client, Out)
     ->  with_mutex(warehouse_rosbridge,
                    catch(ws_send(Out, text(Text)), error(_, _), true))

@@ -4,7 +4,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module('../../kernel/agent',
               [agent/5, agent_mail/2, mail_count/2, with_agent/2]).
-:- use_module('../../kernel/base/json', [atom_json_dict/3]).
+:- use_module('../../kernel/base/json', [json_dict/2]).
 :- use_module('../common',
               [ service/2, subscribers_notify/5, subscription/3,
                 unsubscribe/4 ]).
@@ -52,7 +52,7 @@ most_complaints(1000).          % complaints that may wait for an agent
 
 typhon_ros_rosbridge:handle_message(Host, Read) :-
     (   Read = text(Text),
-        catch(atom_json_dict(Text, Frame, []), error(_, _), fail),
+        catch(json_dict(Text, Frame), error(_, _), fail),
         is_dict(Frame)
     ->  frame_event(Frame, Event)
     ;   functor(Read, What, _),

@@ -112,7 +112,7 @@ finite(Number) :-
 
 %!  json_value(+Form, +JSON, -Message) is det.
 %
-%   Message is JSON, a term of json_read_dict/2, in the Form `dict` or `terms`.
+%   Message is JSON, a term of json_dict/2, in the Form `dict` or `terms`.
 
 json_value(dict, JSON, JSON).
 json_value(terms, JSON, Message) :-

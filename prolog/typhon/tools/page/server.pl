@@ -3,14 +3,14 @@
             server_stop/0
           ]).
 :- use_module(library(error),
-              [ must_be/2, permission_error/3, syntax_error/1 ]).
-:- use_module(library(http/http_json), [http_read_json_dict/3]).
+              [ domain_error/2, must_be/2, permission_error/3,
+                syntax_error/1 ]).
 :- use_module(library(http/http_wrapper), [http_wrapper/5]).
 :- use_module(library(http/websocket), [http_upgrade_to_websocket/3]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/base/error_text', [error_text/2]).
-:- use_module('../../kernel/base/json', [json_text/2]).
+:- use_module('../../kernel/base/json', [json_dict/2, json_text/2]).
 :- use_module('../../bridges/common',
               [ client_becomes/1, http_before/2, http_deadline/2,
                 http_head/4, http_server_close/1, http_server_open/4,
@@ -220,15 +220,26 @@ answer(In, Request) :-
     ).
 
 answer_to(In, Request, _{answer:Answer}) :-
+    must_be_json(Request),
     memberchk(content_length(Length), Request),
     with_body(In, Length, Body,
-              http_read_json_dict([input(Body)|Request], Message,
-                                  [value_string_as_atom(false), tag('')])),
+              ( set_stream(Body, encoding(utf8)),
+                read_string(Body, _, Text) )),
+    json_dict(Text, Message),
     must_be(dict, Message),
     (   get_dict(do, Message, What)
     ->  may_order(What),
         order_run(Message, Answer)
     ;   query_answer(Message, Answer)
+    ).
+
+%   A form of another site cannot send this type.
+
+must_be_json(Request) :-
+    memberchk(content_type(Type), Request),
+    (   sub_atom(Type, 0, _, _, 'application/json')
+    ->  true
+    ;   domain_error(mimetype, Type)
     ).
 
 %   No order runs without this check.

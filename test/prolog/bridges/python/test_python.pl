@@ -62,6 +62,7 @@ with_python([], Goal) :-
 
 test(values_return_unchanged) :-
     Values = [ 1, -7, 1267650600228229401496703205376, 0.5, "text", "", "\u00e4\n\"",
+               "\U0001F600",
                [], [1,["a"]], _{a:1, b:_{c:[]}}, null, true, false ],
     with_python([], forall(member(V, Values),
                            ( remote(alpha, echo(V, R)),

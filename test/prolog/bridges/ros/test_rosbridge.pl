@@ -74,6 +74,17 @@ test(published_and_received_as_dicts) :-
           gets(alpha, Agent, topic('/chatter', Message)),
           assertion(Message.data == "h\u00e9 \"you\"\n") )).
 
+%   As servers in Python and C++ send a scan, a position without a fix, and text.
+
+test(numbers_and_keys_of_other_writers_arrive,
+     Message =@= _{ranges:[1.5,null,null], fix:null, data:"\U0001F600"}) :-
+    on_a_host(Agent, [],
+        ( does(alpha, Agent, ros_subscribe('/scan', 'std_msgs/String')),
+          rosbridge_send("{\"op\":\"publish\", \"topic\":\"/scan\", \"msg\":\c
+                          {\"ranges\":[1.5,Infinity,1e400], \"fix\":1, \c
+                          \"fix\":NaN, \"data\":\"\\ud83d\\ude00\"}}"),
+          gets(alpha, Agent, topic('/scan', Message)) )).
+
 test(published_and_received_as_terms) :-
     on_a_host(Agent, [messages(terms)],
         ( does(alpha, Agent, ros_subscribe('/cmd', 'geometry_msgs/msg/Twist')),
