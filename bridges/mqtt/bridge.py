@@ -33,7 +33,6 @@ call of the client.
 """
 
 import collections
-import json
 import os
 import socket
 import ssl
@@ -52,6 +51,7 @@ except ImportError as problem:
     mqtt, MISSING = None, problem
 
 KINDS = ('auto', 'json', 'text', 'bytes')
+BLANKS = '\ufeff \t\r\n'            # before JSON
 
 
 def kind_of(request):
@@ -62,29 +62,20 @@ def kind_of(request):
 
 
 def encoded(payload, kind):
-    """The bytes of a payload."""
-    if kind == 'json' or (kind == 'auto' and isinstance(payload,
-                                                        (dict, list))):
-        return json.dumps(payload, allow_nan=False).encode()
-    if not isinstance(payload, str):
-        payload = json.dumps(payload)
+    """The bytes of the text of a payload."""
     return payload.encode('latin-1' if kind == 'bytes' else 'utf-8')
 
 
 def decoded(payload, kind):
-    """What the bytes of a payload say; other bytes are themselves."""
-    if kind == 'bytes':
-        return payload.decode('latin-1')
-    if kind == 'json' or (kind == 'auto'
-                          and payload.lstrip()[:1] in (b'{', b'[')):
-        try:
-            return json.loads(payload.decode())
-        except (ValueError, RecursionError):
-            pass
+    """The text of a payload, or its bytes, and whether it may be JSON."""
     try:
-        return payload.decode()
+        if kind != 'bytes':
+            said = payload.decode()
+            return said, kind == 'json' or (
+                kind == 'auto' and said.lstrip(BLANKS)[:1] in ('{', '['))
     except ValueError:
-        return payload.decode('latin-1')
+        pass
+    return payload.decode('latin-1'), False
 
 
 def new_client(client_id, clean):
@@ -293,7 +284,7 @@ class Broker(Helper):
         topic, qos = text(request, 'topic'), integer(request, 'qos', 0, 2)
         retain, wait = bool(request.get('retain')), request.get('wait')
         try:
-            payload = encoded(request.get('payload'), kind_of(request))
+            payload = encoded(text(request, 'payload'), kind_of(request))
         except ValueError as problem:
             raise BadRequest('payload: %s' % problem) from None
         if len(payload) > self.largest:
@@ -477,17 +468,10 @@ class Broker(Helper):
                 self.event('too_big', topic=topic, size=len(payload),
                            kind=kind, keys=filters)
             else:
-                self.told(payload, kind, topic=topic, keys=filters, qos=qos,
-                          retain=retain)
-
-    def told(self, payload, kind, **fields):
-        """What JSON cannot say again, as infinite numbers, is text."""
-        try:
-            self.event('message', payload=decoded(payload, kind), kind=kind,
-                       **fields)
-        except (ValueError, RecursionError):
-            self.event('message', payload=decoded(payload, 'text'),
-                       kind=kind, **fields)
+                said, may_be_json = decoded(payload, kind)
+                self.event('message', payload=said, json=may_be_json,
+                           kind=kind, topic=topic, keys=filters, qos=qos,
+                           retain=retain)
 
 
 if __name__ == '__main__':

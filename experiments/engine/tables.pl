@@ -4,7 +4,8 @@
 :- use_module(library(apply), [maplist/3, maplist/4]).
 :- use_module(library(csv), [csv_write_file/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module('../../prolog/typhon/kernel/base/json', [json_text/2]).
+:- use_module('../../prolog/typhon/kernel/base/json',
+              [json_text/2, json_value/1]).
 :- use_module(library(lists), [append/2, append/3, member/2]).
 :- use_module(library(pairs), [pairs_keys_values/3]).
 :- use_module(outcome, [case_numbers/4]).
@@ -172,20 +173,21 @@ save_json(Out, Header, Row) :-
 pair(Name, Value, Name=Value).
 
 %   A number as text, such as the value of a parameter, is written as a
-%   number.
+%   number, and one that JSON lacks, such as an infinite one, as text.
 
 json_value('', null) :-
-    !.
-json_value(Value, Value) :-
-    number(Value),
     !.
 json_value(true, true) :-
     !.
 json_value(false, false) :-
     !.
 json_value(Value, Number) :-
-    atom(Value),
-    atom_number(Value, Number),
+    (   number(Value)
+    ->  Number = Value
+    ;   atom(Value),
+        atom_number(Value, Number)
+    ),
+    catch(json_value(Number), error(_, _), fail),
     !.
 json_value(Value, Text) :-
     format(string(Text), '~w', [Value]).

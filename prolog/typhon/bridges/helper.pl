@@ -21,7 +21,6 @@ helper first gets the requests of the hook typhon_helper_owner:again(Name,
 Request).  Names are ground terms chosen by the caller, one for each helper.
 */
 
-:- reexport(helper/owner, [json_value/1]).
 :- reexport(helper/process, [helper_file/2, helper_python/2]).
 :- reexport(helper/requests,
             [ helper_ask/4, helper_call/5, helper_close/1, helper_note/2,

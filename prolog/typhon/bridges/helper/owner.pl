@@ -3,13 +3,9 @@
             own_state/2,                % +When, -State
             request_line/4,             % +Request, +Seconds, -Id, -Line
             said/3,                     % +Name, +Owner, +Dict
-            answer_unwanted/1,          % +Id
-            json_value/1                % +Term
+            answer_unwanted/1           % +Id
           ]).
-:- use_module(library(apply), [maplist/2]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(error), [instantiation_error/1, type_error/2]).
-:- use_module(library(pairs), [pairs_values/2]).
 :- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../../kernel/base/json', [json_text/2]).
 :- use_module('../../kernel/base/server', [server_answer/2, server_self/1]).
@@ -282,40 +278,3 @@ answer_died(Answer0, Answer) :-
     ;   Answer = Answer0
     ),
     answer_all(Answer).
-
-%!  json_value(+Term) is det.
-%
-%   Term can be written as JSON.
-%
-%   @error instantiation_error, type_error(json_value, Culprit)
-
-json_value(Term) :-
-    var(Term),
-    !,
-    instantiation_error(Term).
-json_value(Term) :-
-    number(Term),
-    !,
-    (   ( integer(Term) ; float(Term), finite(Term) )
-    ->  true
-    ;   type_error(json_value, Term)
-    ).
-json_value(Term) :-
-    ( atom(Term) ; string(Term) ; Term == [] ),
-    !.
-json_value(Term) :-
-    is_list(Term),
-    !,
-    maplist(json_value, Term).
-json_value(Term) :-
-    is_dict(Term),
-    !,
-    dict_pairs(Term, _, Pairs),
-    pairs_values(Pairs, Values),
-    maplist(json_value, Values).
-json_value(Term) :-
-    type_error(json_value, Term).
-
-finite(Float) :-
-    float_class(Float, Class),
-    \+ memberchk(Class, [infinite,nan]).

@@ -12,7 +12,7 @@
               [ uri_authority_components/2, uri_authority_data/3,
                 uri_components/2, uri_data/3, uri_encoded/3 ]).
 :- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
-:- use_module('../helper', [json_value/1]).
+:- use_module('../../kernel/base/json', [json_dict/2, json_text/2]).
 :- use_module('../common',
               [ subscribers_drop/4, subscribers_notify/5,
                 subscribers_notify_new/5, subscription/3 ]).
@@ -51,9 +51,9 @@ typhon_helper_owner:handle_message(mqtt(Host), Dict) :-
     handle_event(Event, Host, Dict).
 
 handle_event("message", Host, Dict) :-
-    _{ topic:Text, keys:Filters, kind:Kind, payload:Payload, qos:QoS,
-       retain:Retain } :< Dict,
+    _{ topic:Text, keys:Filters, kind:Kind, qos:QoS, retain:Retain } :< Dict,
     atom_string(Topic, Text),
+    payload(Dict, Payload),
     Message = message(Topic, Payload, [qos(QoS),retain(Retain)]),
     forall(member(Filter, Filters),
            notify(Retain, Host, Filter, Kind, Message, message(Topic, _, _))).
@@ -81,6 +81,16 @@ handle_event("up", Host, Dict) :-
     print_message(informational, typhon(mqtt_up(Host))).
 handle_event("refused", Host, _) :-
     print_message(warning, typhon(mqtt_refused(Host))).
+
+%   The helper decides which payloads are to be read as JSON.
+
+payload(Dict, Payload) :-
+    _{payload:Text, json:Json} :< Dict,
+    (   Json == true,
+        catch(json_dict(Text, Term), error(_, _), fail)
+    ->  Payload = Term
+    ;   Payload = Text
+    ).
 
 notify(Retain, Host, Filter0, Kind0, Message, Same) :-
     atom_string(Filter, Filter0),
@@ -182,15 +192,16 @@ string_bytes(Text, Length) :-
 
 %!  mqtt_payload(+Term, +Kind, -Payload) is det.
 %
-%   Payload is Term in the form for the helper.  With the Kind `auto` text is
-%   unchanged, numbers are written, dicts and lists become JSON; with `json` all
-%   terms become JSON; with `bytes` Term is a text of characters up to 255.
+%   Payload is the text of Term.  With the Kind `auto` text is unchanged, numbers
+%   are written, dicts and lists become JSON; with `json` all terms become JSON;
+%   with `bytes` Term is a text of characters up to 255.
 %
-%   @error type_error(mqtt_payload, Culprit), instantiation_error
+%   @error type_error(mqtt_payload, Culprit), instantiation_error, and the errors
+%          of json_text/2
 
-mqtt_payload(Term, json, Term) :-
+mqtt_payload(Term, json, Text) :-
     !,
-    json_value(Term).
+    json_text(Term, Text).
 mqtt_payload(Term, bytes, Text) :-
     !,
     ( ( atom(Term) ; string(Term) ) -> true ; type_error(text, Term) ),
@@ -201,10 +212,10 @@ mqtt_payload(Term, bytes, Text) :-
     ->  type_error(bytes, Term)
     ;   true
     ).
-mqtt_payload(Term, auto, Term) :-
+mqtt_payload(Term, auto, Text) :-
     ( is_list(Term) ; is_dict(Term) ),
     !,
-    json_value(Term).
+    json_text(Term, Text).
 mqtt_payload(Term, _, Text) :-
     (   ( atom(Term) ; string(Term) ; number(Term) )
     ->  format(string(Text), '~w', [Term])

@@ -201,7 +201,6 @@ mqtt_publish(Host, Message, Wait, Seconds) :-
 
 fits(Host, Message) :-
     get_dict(payload, Message, Text),
-    string(Text),
     string_length(Text, Length),
     mqtt_default(Host, largest(Largest), 4194304),
     Length*4 =< Largest.

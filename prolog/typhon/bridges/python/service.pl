@@ -10,7 +10,7 @@
                 subscriber/2 ]).
 :- use_module('../helper',
               [ helper_call/5, helper_close/1, helper_file/2, helper_note/2,
-                helper_open/3, helper_python/2, json_value/1 ]).
+                helper_open/3, helper_python/2 ]).
 
 /** <module> Python on a host
 
@@ -195,7 +195,6 @@ function(Module, Function, Name/Arity, Clause) :-
 
 run(Module, Function, Args, Result) :-
     subscriber(Host, Agent),
-    maplist(json_value, Args),
     (   seconds(Host, Seconds)
     ->  true
     ;   existence_error(python, Host)   % the service was stopped

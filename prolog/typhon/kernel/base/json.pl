@@ -1,8 +1,12 @@
 :- module(typhon_json,
           [ json_dict/2,                % +Text, -Term
-            json_text/2                 % +Term, -Text
+            json_text/2,                % +Term, -Text
+            json_value/1                % +Term
           ]).
+:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(error), [instantiation_error/1, type_error/2]).
 :- use_module(library(lists), [reverse/2]).
+:- use_module(library(pairs), [pairs_keys_values/3]).
 
 :- if(exists_source(library(json))).
 :- use_module(library(json), [atom_json_dict/3]).
@@ -13,24 +17,92 @@
 /** <module> JSON: the reader and the writer of all bridges and of the page
 
 The reader is for texts of any origin.  It accepts what RFC 8259 defines and, as
-many programs write it, `NaN`, `Infinity` and `-Infinity`.
+many programs write them, `NaN`, `Infinity`, `-Infinity`, and a byte order mark
+before the value.  The library drops such texts, and those with repeated keys;
+it leaves surrogate pairs as two characters, and accepts `[1,]` and `[01]`.
 
 *Threading*: no state.
 */
 
+:- set_prolog_flag(optimise, true).     % arithmetic without calls
+
+deepest(600).                   % levels; readers in Python have 1000
+longest(4300).                  % characters of a number, as in Python; the
+                                % time to read it is quadratic
+
+                /*******************************
+                *            WRITING           *
+                *******************************/
+
 %!  json_text(+Term, -Text:string) is det.
 %
-%   One line; Term is as in json_write_dict/3.
+%   Text is Term in one line.
+%
+%   @error the errors of json_value/1
+%   @error representation_error(code_point) a text has half a surrogate pair
 
 json_text(Term, Text) :-
+    json_value(Term),
     atom_json_dict(Text, Term, [as(string), width(0)]).
+
+%!  json_value(+Term) is det.
+%
+%   Term can be written as JSON: texts, integers, finite floats, and lists and
+%   dicts of such terms.  The members Name=Value of json(Members) keep their
+%   order.
+%
+%   @error instantiation_error, type_error(json_value, Culprit)
+
+json_value(Term) :-
+    deepest(Depth),
+    json_value(Depth, Term).
+
+json_value(Depth, Term) :-
+    (   var(Term)
+    ->  instantiation_error(Term)
+    ;   ( atom(Term) ; string(Term) ; integer(Term) )
+    ->  true
+    ;   float(Term),
+        finite(Term)
+    ->  true
+    ;   Depth > 0,
+        json_parts(Term, Parts)
+    ->  Depth1 is Depth-1,
+        maplist(json_value(Depth1), Parts)
+    ;   type_error(json_value, Term)
+    ).
+
+json_parts(Term, Term) :-
+    is_list(Term),
+    !.
+json_parts(Dict, Values) :-
+    is_dict(Dict),
+    !,
+    dict_pairs(Dict, _, Pairs),
+    pairs_keys_values(Pairs, Keys, Values),
+    maplist(atom, Keys).
+json_parts(json(Members), Values) :-
+    is_list(Members),
+    maplist(member_value, Members, Values).
+
+member_value(Name=Value, Value) :-
+    atom(Name).
+
+finite(Float) :-
+    float_class(Float, Class),
+    \+ memberchk(Class, [infinite,nan]).
+
+                /*******************************
+                *            READING           *
+                *******************************/
 
 %!  json_dict(+Text, -Term) is det.
 %
 %   Term is the value of the JSON text: dicts, none with a tag, lists, strings,
-%   numbers, `true`, `false` and `null`.  A number that is not finite as a float
-%   is `null`.  Of members with the same key the last one counts.  Half of a
-%   surrogate pair is U+FFFD.
+%   numbers, `true`, `false` and `null`.  A number that is not finite as a float,
+%   or has more than 4300 characters, is `null`.  Of members with the same key
+%   the last one counts.  Half of a surrogate pair is U+FFFD.  Text with more
+%   than 600 levels of lists and dicts is illegal.
 %
 %   @error syntax_error(json(illegal_json))
 
@@ -42,7 +114,9 @@ json_dict(Text, Term) :-
     ).
 
 document(Value) -->
-    ws, value(Value), ws.
+    ( "\uFEFF" ; "" ), !,
+    { deepest(Depth) },
+    ws, value(Depth, Value), ws.
 
 ws --> [C], { ws(C) }, !, ws.
 ws --> [].
@@ -52,32 +126,40 @@ ws(0'\t).
 ws(0'\n).
 ws(0'\r).
 
-value(Value) -->
-    [C], value(C, Value).
+value(Depth, Value) -->
+    [C], value(C, Depth, Value).
 
-value(0'{, Dict) --> !, ws, members(Pairs), { pairs_dict(Pairs, Dict) }.
-value(0'[, List) --> !, ws, elements(List).
-value(0'", String) --> !, chars(Codes), { string_codes(String, Codes) }.
-value(0't, true) --> !, "rue".
-value(0'f, false) --> !, "alse".
-value(0'n, null) --> !, "ull".
-value(0'N, null) --> !, "aN".
-value(0'I, null) --> !, "nfinity".
-value(0'-, null) --> "Infinity", !.
-value(C, Number) -->
+value(0'{, Depth, Dict) -->
+    !,
+    { Depth > 0, Depth1 is Depth-1 },
+    ws, members(Depth1, Pairs),
+    { pairs_dict(Pairs, Dict) }.
+value(0'[, Depth, List) -->
+    !,
+    { Depth > 0, Depth1 is Depth-1 },
+    ws, elements(Depth1, List).
+value(0'", _, String) --> !, chars(Codes), { string_codes(String, Codes) }.
+value(0't, _, true) --> !, "rue".
+value(0'f, _, false) --> !, "alse".
+value(0'n, _, null) --> !, "ull".
+value(0'N, _, null) --> !, "aN".
+value(0'I, _, null) --> !, "nfinity".
+value(0'-, _, null) --> "Infinity", !.
+value(C, _, Number) -->
     integer(C, Codes, Fraction),
     fraction(Fraction, Exponent),
     exponent(Fraction, Exponent),
-    { finite(Codes, Number) }.
+    { number_or_null(Codes, Number) }.
 
-members([]) --> "}", !.
-members([Pair|Pairs]) --> pair(Pair), members_end(Pairs).
+members(_, []) --> "}", !.
+members(Depth, [Pair|Pairs]) --> pair(Depth, Pair), members_end(Depth, Pairs).
 
-members_end([Pair|Pairs]) --> ",", !, ws, pair(Pair), members_end(Pairs).
-members_end([]) --> "}".
+members_end(Depth, [Pair|Pairs]) -->
+    ",", !, ws, pair(Depth, Pair), members_end(Depth, Pairs).
+members_end(_, []) --> "}".
 
-pair(Key-Value) -->
-    "\"", chars(Codes), ws, ":", ws, value(Value), ws,
+pair(Depth, Key-Value) -->
+    "\"", chars(Codes), ws, ":", ws, value(Depth, Value), ws,
     { atom_codes(Key, Codes) }.
 
 pairs_dict(Pairs, Dict) :-
@@ -85,12 +167,13 @@ pairs_dict(Pairs, Dict) :-
     sort(1, @<, LastFirst, Unique),     % keeps the first of each key
     dict_pairs(Dict, _, Unique).
 
-elements([]) --> "]", !.
-elements([Value|Values]) --> value(Value), ws, elements_end(Values).
+elements(_, []) --> "]", !.
+elements(Depth, [Value|Values]) -->
+    value(Depth, Value), ws, elements_end(Depth, Values).
 
-elements_end([Value|Values]) -->
-    ",", !, ws, value(Value), ws, elements_end(Values).
-elements_end([]) --> "]".
+elements_end(Depth, [Value|Values]) -->
+    ",", !, ws, value(Depth, Value), ws, elements_end(Depth, Values).
+elements_end(_, []) --> "]".
 
                 /*******************************
                 *            STRINGS           *
@@ -101,7 +184,8 @@ chars(Codes) -->
 
 chars(0'", []) --> !.
 chars(0'\\, [Code|Codes]) --> !, [C], escape(C, Code), chars(Codes).
-chars(C, [C|Codes]) --> { C >= 0x20 }, chars(Codes).
+chars(C, [C|Codes]) --> { C >= 0x20, C < 0xD800 }, !, chars(Codes).
+chars(C, [Code|Codes]) --> { C >= 0x20, whole(C, Code) }, chars(Codes).
 
 escape(0'u, Code) --> !, unit(Unit), character(Unit, Code).
 escape(C, Code) --> { escaped(C, Code) }.
@@ -129,7 +213,10 @@ character(High, Code) -->
     !,
     { Code is 0x10000 + (High-0xD800)*0x400 + Low-0xDC00 }.
 character(Unit, Code) -->
-    { between(0xD800, 0xDFFF, Unit) -> Code = 0xFFFD ; Code = Unit }.
+    { whole(Unit, Code) }.
+
+whole(Unit, Code) :-
+    ( between(0xD800, 0xDFFF, Unit) -> Code = 0xFFFD ; Code = Unit ).
 
                 /*******************************
                 *            NUMBERS           *
@@ -149,16 +236,9 @@ digits(End, End) --> [].
 
 digits1([C|Codes], End) --> [C], { digit(C) }, digits(Codes, End).
 
-digit(0'0).
-digit(0'1).
-digit(0'2).
-digit(0'3).
-digit(0'4).
-digit(0'5).
-digit(0'6).
-digit(0'7).
-digit(0'8).
-digit(0'9).
+digit(C) :-
+    C >= 0'0,
+    C =< 0'9.
 
 fraction([0'.|Codes], End) --> ".", !, digits1(Codes, End).
 fraction(End, End) --> [].
@@ -176,9 +256,12 @@ sign(End, End) --> [].
 
 %   Prolog raises an error, or has an infinite number, as its flags demand.
 
-finite(Codes, Number) :-
-    (   catch(number_codes(Number0, Codes), error(syntax_error(_), _), fail),
-        \+ ( float(Number0), float_class(Number0, infinite) )
+number_or_null(Codes, Number) :-
+    (   length(Codes, Length),
+        longest(Longest),
+        Length =< Longest,
+        catch(number_codes(Number0, Codes), error(_, _), fail),
+        ( integer(Number0) ; finite(Number0) )
     ->  Number = Number0
     ;   Number = null
     ).

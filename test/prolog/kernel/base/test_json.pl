@@ -7,7 +7,7 @@ The cases are those on which public readers of JSON differ.
 
 :- use_module('../../../lib/common').
 :- use_module(library(apply), [maplist/2]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(plunit)).
 :- use_module(library(random), [random_between/3, random_member/2]).
 :- use_module(library(typhon/kernel/base/json), [json_dict/2, json_text/2]).
@@ -42,6 +42,9 @@ value("[-0,-0.0,0.1]", [0,-0.0,0.1]).
 value("[5e-324,1.7976931348623157e308]", [5.0e-324,1.7976931348623157e308]).
 value("[123456789012345678901234567890]", [123456789012345678901234567890]).
 value(" [ 1 ,\t{ \"a\" :\r\nnull } ] \n", [1,_{a:null}]).
+value("\uFEFF{\"a\":1}", _{a:1}).
+value(Text, ["\uFFFD\uFFFD\u00ff"]) :-
+    string_codes(Text, [0'[,0'",0xD83D,0xDE00,0xFF,0'",0']]).
 value("\"text\"", "text").
 value("true", true).
 value("-7", -7).
@@ -60,29 +63,60 @@ no_json(Text) :-
              "[\uFF11]", "[1.5NaN]", "[1.0Inf]", "[inf]", "[nan]", "[-NaN]",
              "[nul]", "[True]", "[true1]", "[\"\t\"]", "[\"\n\"]", "[\"\\x\"]",
              "[\"\\u12\"]", "[\"\\u12g4\"]", "[\"\\u\uFF11111\"]", "[\"\\\"]",
-             "[\"", "['a']", "[/**/1]", "// x", "\uFEFF[]", "[\u00a0]",
+             "[\"", "['a']", "[/**/1]", "// x", "\uFEFF", "\uFEFF\uFEFF[]", "[\uFEFF]", "[\u00a0]",
              "[1]\u0000", "f(x)", "_", "[X]" ]).
 
-test(deep, Depth == 100000) :-
-    Depth = 100000,
-    brackets(0'[, Depth, Open),
-    brackets(0'], Depth, Close),
-    string_concat(Open, Close, Text),
+%   Texts of any depth and numbers of any length take time in proportion to
+%   their length, and stay small for the programs that get the term.
+
+test(deep, [forall(member(Pair, ["[]", "{\"a\":}"])), Depths == [600,600]]) :-
+    nested(Pair, 600, Text),
     json_dict(Text, Term),
-    nested(Term, Depth).
-test(deep_and_open, error(syntax_error(_))) :-
-    brackets(0'[, 100000, Text),
+    depth(Term, Depth),
+    json_text(Term, Written),
+    json_dict(Written, Again),
+    depth(Again, Depth1),
+    Depths = [Depth,Depth1].
+test(too_deep, [forall(member(Depth, [601,100000])),
+                error(syntax_error(json(illegal_json)))]) :-
+    nested("[]", Depth, Text),
     json_dict(Text, _).
+test(deep_and_open, error(syntax_error(json(illegal_json)))) :-
+    repeated("[", 100000, Text),
+    json_dict(Text, _).
+test(too_deep_to_write, error(type_error(json_value, [[]]))) :-
+    nested("[]", 600, Text),
+    json_dict(Text, Term),
+    json_text([[Term]], _).
+test(long_numbers, [Length,Rest] == [4300,[null,null,-1]]) :-
+    repeated("1", 4300, Longest),
+    repeated("1", 1000000, Long),
+    format(string(Text), "[~s,~s,0.~s,-1]", [Longest,Long,Long]),
+    json_dict(Text, [Number|Rest]),
+    atom_length(Number, Length).
 
-brackets(Code, Length, Text) :-
-    length(Codes, Length),
-    maplist(=(Code), Codes),
-    string_codes(Text, Codes).
+%   Pair ends with one character that closes.
 
-nested([], 1) :- !.
-nested([Term], Depth) :-
-    Depth1 is Depth-1,
-    nested(Term, Depth1).
+nested(Pair, Depth, Text) :-
+    sub_string(Pair, Before, 1, 0, Close),
+    sub_string(Pair, 0, Before, _, Open),
+    repeated(Open, Depth, Opened),
+    repeated(Close, Depth, Closed),
+    (   Open == "["
+    ->  Middle = ""
+    ;   Middle = "null"
+    ),
+    atomic_list_concat([Opened,Middle,Closed], Text).
+
+repeated(Part, Count, Text) :-
+    length(Parts, Count),
+    maplist(=(Part), Parts),
+    atomic_list_concat(Parts, Text).
+
+depth([Term], Depth) => depth(Term, Depth1), Depth is Depth1+1.
+depth(_{a:Term}, Depth) => depth(Term, Depth1), Depth is Depth1+1.
+depth([], Depth) => Depth = 1.
+depth(null, Depth) => Depth = 0.
 
 %   Flags that a program sets change neither numbers nor their absence.
 
@@ -94,6 +128,35 @@ with_flag(Flag, Value, Goal) :-
     current_prolog_flag(Flag, Old),
     setup_call_cleanup(set_prolog_flag(Flag, Value), Goal,
                        set_prolog_flag(Flag, Old)).
+
+test(no_json_value, [forall(no_value(Term, Culprit)),
+                     error(type_error(json_value, Culprit))]) :-
+    json_text([_{a:[Term]}], _).
+
+no_value(Inf, Inf) :- Inf is inf.
+no_value(Inf, Inf) :- Inf is -inf.
+no_value(NaN, NaN) :- NaN is nan.
+no_value(f(x), f(x)).
+no_value(a-1, a-1).
+no_value([1|b], [1|b]).
+no_value(1r3, 1r3).
+no_value(_{1:a}, _{1:a}).
+no_value(json([a]), json([a])).
+
+test(unbound, error(instantiation_error)) :-
+    json_text([_], _).
+test(half_a_pair_is_not_written, error(representation_error(_))) :-
+    atom_codes(Half, [0xD83D]),
+    json_text([Half], _).
+test(control_characters_are_escaped, Raw-Read == []-String) :-
+    numlist(0, 0x9f, Codes),
+    string_codes(String, Codes),
+    json_text(String, Text),
+    string_codes(Text, Written),
+    findall(Code, ( member(Code, Written), Code < 0x20 ), Raw),
+    json_dict(Text, Read).
+test(members_in_order, Text == "{\"b\":1, \"a\":\"\"}") :-
+    json_text(json([b=1,a=""]), Text).
 
 test(written_terms_are_read, Lost == []) :-
     findall(Term, ( between(1, 300, _),
