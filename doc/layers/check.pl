@@ -66,9 +66,15 @@ problem(circle(File)) :-
     reaches_by_import(File, File).
 problem(time_of_day(File, Name)) :-
     tree_file(File),
-    goes_by_the_clock(File),
+    of_program(File),
     by_day(File, Name),
     \+ may_use(File, Name).
+problem(other_json(File, Library)) :-
+    tree_file(File),
+    of_program(File),
+    import(File, library(Library), _),
+    memberchk(Library, [json,http/json,http/http_json]),
+    \+ inside('prolog/typhon/kernel/base/json.pl', File).
 problem(stray_comment_end(File)) :-
     size(File, '*/'/0, _, _).
 problem(Problem) :-
@@ -80,7 +86,7 @@ problem(Problem) :-
 problem(Problem) :-
     loaded_problem(Problem).
 
-%   goes_by_the_clock(+File) is semidet.
+%   of_program(+File) is semidet.
 %   by_day(+File, -Name) is nondet.
 %   may_use(+File, +Name) is semidet.
 %
@@ -89,8 +95,9 @@ problem(Problem) :-
 %   may use the time of day have dates that others read, or compare the times
 %   of files; a wrong end of the wait of an idle worker is harmless.
 
-goes_by_the_clock(File) :-
-    member(Top, ['prolog/', 'app/', 'agents/', 'payloads/', 'experiments/']),
+of_program(File) :-
+    member(Top, ['prolog/', 'app/', 'agents/', 'payloads/', 'experiments/',
+                 'examples/']),
     inside(Top, Prefix),
     atom_concat(Prefix, _, File),
     !.
@@ -272,6 +279,8 @@ says(time_of_day(F, wait), '~w: waits by the time of day, see \c
 says(time_of_day(F, N), '~w: uses ~w, which goes by the time of day, see \c
      kernel/base/monotonic.pl', [F, N]) :-
     N \== wait.
+says(other_json(F, L), '~w: imports library(~w), see kernel/base/json.pl',
+     [F, L]).
 says(stray_comment_end(F), '~w: a stray */ makes the next directive a clause',
      [F]).
 says(breaks_rule(F, H), '~w: defines ~w of a higher layer', [F, H]) :-
