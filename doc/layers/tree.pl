@@ -76,8 +76,8 @@ read_tree :-
 
 tree_file(File) :-
     root(Root),
-    member(Top, [prolog, app, agents, payloads, experiments, test, bench,
-                 doc]),
+    member(Top, [prolog, app, agents, payloads, examples, experiments, test,
+                 bench, doc]),
     directory_file_path(Root, Top, Dir),
     directory_member(Dir, File, [recursive(true), extensions([pl])]).
 

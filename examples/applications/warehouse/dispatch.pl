@@ -14,7 +14,7 @@
 :- use_module('../../../agents/sync/operator', [sequence_start/5]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(lists), [member/2, subset/2]).
-:- use_module(library(option), [option/3]).
+:- use_module(library(option), [option/2, option/3]).
 :- use_module(library(pairs), [pairs_keys_values/3]).
 
 /** <module> Orders, and the agents that execute them
