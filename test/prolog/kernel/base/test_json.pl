@@ -44,10 +44,15 @@ value("[123456789012345678901234567890]", [123456789012345678901234567890]).
 value(" [ 1 ,\t{ \"a\" :\r\nnull } ] \n", [1,_{a:null}]).
 value("\uFEFF{\"a\":1}", _{a:1}).
 value(Text, ["\uFFFD\uFFFD\u00ff"]) :-
-    string_codes(Text, [0'[,0'",0xD83D,0xDE00,0xFF,0'",0']]).
+    text_with_halves([0'[,0'",0xD83D,0xDE00,0xFF,0'",0']], Text).
 value("\"text\"", "text").
 value("true", true).
 value("-7", -7).
+
+%   Texts of newer versions of SWI-Prolog have no half pairs.
+
+text_with_halves(Codes, Text) :-
+    catch(string_codes(Text, Codes), error(type_error(_, _), _), fail).
 
 test(no_json, [forall(no_json(Text)),
                error(syntax_error(json(illegal_json)))]) :-
@@ -145,8 +150,8 @@ no_value(json([a]), json([a])).
 
 test(unbound, error(instantiation_error)) :-
     json_text([_], _).
-test(half_a_pair_is_not_written, error(representation_error(_))) :-
-    atom_codes(Half, [0xD83D]),
+test(half_a_pair_is_not_written, [forall(text_with_halves([0xD83D], Half)),
+                                  error(representation_error(_))]) :-
     json_text([Half], _).
 test(control_characters_are_escaped, Raw-Read == []-String) :-
     numlist(0, 0x9f, Codes),
@@ -155,8 +160,11 @@ test(control_characters_are_escaped, Raw-Read == []-String) :-
     string_codes(Text, Written),
     findall(Code, ( member(Code, Written), Code < 0x20 ), Raw),
     json_dict(Text, Read).
-test(members_in_order, Text == "{\"b\":1, \"a\":\"\"}") :-
-    json_text(json([b=1,a=""]), Text).
+test(members_keep_their_order) :-
+    json_text(json([b=1,a=2]), Text),
+    sub_string(Text, B, _, _, "\"b\""),
+    sub_string(Text, A, _, _, "\"a\""),
+    assertion(B < A).
 
 test(written_terms_are_read, Lost == []) :-
     findall(Term, ( between(1, 300, _),
