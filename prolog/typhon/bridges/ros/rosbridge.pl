@@ -5,13 +5,12 @@
             rosbridge_up/1              % ?Host
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(error), [resource_error/1]).
+:- use_module(library(error), [permission_error/3, resource_error/1]).
+:- use_module(library(http/http_open), [http_open/3]).
 :- use_module(library(http/http_stream), []).
-:- use_module(library(http/websocket), [http_open_websocket/3, ws_send/2]).
+:- use_module(library(http/websocket), [ws_open/3, ws_send/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../../kernel/base/monotonic',
-              [ monotonic_time/1, poll_within/2, wait_within/2 ]).
 :- use_module('../../kernel/base/monotonic',
               [ monotonic_time/1, poll_within/2, wait_within/2 ]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
@@ -60,7 +59,7 @@ soon(5).                        % seconds: a connection that ends earlier failed
 %   Connect Host within Seconds, and keep it connected.  A server that has sent
 %   nothing for Silence seconds, not even answers to pings, counts as gone.
 %
-%   @error the errors of http_open/3 and http_open_websocket/3,
+%   @error the errors of http_open/3, permission_error(open, websocket, URL),
 %   timeout_error(connect, URL)
 
 rosbridge_open(Host, URL, Seconds, Silence) :-
@@ -150,9 +149,8 @@ close_down(Host, Reader) :-
     ),
     thread_join(Reader, _).
 
-%   When Prolog halts it aborts its threads.  library(http/websocket) swallows
-%   the abort: the connection would seem closed, and the reader would connect
-%   again.  So this hook closes connections before that.  On 9.0.4 a wait with a
+%   When Prolog halts it aborts its threads.  So this hook closes connections
+%   before that.  On 9.0.4 a wait with a
 %   deadline might not end in a hook of halt/0, so the hook polls.
 
 :- at_halt(close_all).
@@ -316,7 +314,7 @@ write_loop(Socket, Every) :-
     ->  true
     ;   Message = ping('')              % the server answers it
     ),
-    Socket = socket(_, Out),
+    Socket = socket(_, _, Out),
     (   catch(ws_send(Out, Message), error(_, _), fail),
         Message \= close(_, _)          % the server closes its end
     ->  write_loop(Socket, Every)
@@ -343,9 +341,25 @@ writer_stop(_, _).
 %   seconds.  Without nodelay a frame would wait until the server has acknowledged
 %   the previous one.
 
-socket_open(URL, Silence, socket(In, Out)) :-
-    http_open_websocket(URL, Pair, [timeout(Silence), nodelay(true)]),
-    stream_pair(Pair, In, Out).
+socket_open(URL, Silence, socket(Raw, In, Out)) :-
+    Key = 'VHlwaG9uIHJvc2JyaWRnZQ==',
+    http_open(URL, Pair,
+              [ status_code(Status), header(sec_websocket_accept, Accept),
+                connection('Keep-alive, Upgrade'),
+                request_header('Upgrade'=websocket),
+                request_header('Sec-WebSocket-Key'=Key),
+                request_header('Sec-WebSocket-Version'=13),
+                output(Output), timeout(Silence), nodelay(true) ]),
+    (   Status == 101,
+        websocket:sec_websocket_accept(_{key:Key}, Accept)
+    ->  stream_pair(Pair, Raw, RawOut),
+        stream_pair(Output, Raw, RawOut),
+        ws_open(Raw, In, [mode(client)]),
+        ws_open(RawOut, Out, [mode(client)])
+    ;   close(Output),
+        close(Pair),
+        permission_error(open, websocket, URL)
+    ).
 
 %   socket_read(+Socket, -Read): wait for a message, and answer pings meanwhile.
 %   Read is text(String), `binary`, end(Why), or too_long(Characters) for a
@@ -354,7 +368,8 @@ socket_open(URL, Silence, socket(In, Out)) :-
 %   @error timeout_error(read, Stream)
 
 socket_read(Socket, Read) :-
-    Socket = socket(In, _),
+    Socket = socket(Raw, In, _),
+    await_header(Raw),
     websocket:ws_read_header(In, Code, _),
     read_frame(Code, Socket, Read0),
     (   Read0 == none
@@ -362,9 +377,25 @@ socket_read(Socket, Read) :-
     ;   Read = Read0
     ).
 
+%   The library drops an exception that reaches it while it waits for a header:
+%   that of a signal, or of the end of Prolog.  So all bytes of the header are in
+%   the buffer before.  A header with a long length has two or eight more.
+
+await_header(Raw) :-
+    peek_string(Raw, 2, Start),
+    (   string_code(2, Start, Second),
+        Short is Second /\ 127,
+        more_bytes(Short, More)
+    ->  peek_string(Raw, More, _)
+    ;   true
+    ).
+
+more_bytes(126, 4).
+more_bytes(127, 10).
+
 read_frame(end_of_file, _, end(closed)) :- !.
 read_frame(Code, Socket, Read) :-
-    Socket = socket(In, Out),
+    Socket = socket(_, In, Out),
     setting(longest, Longest),
     read_string(In, Longest, Text),
     rest(In, 0, More),
@@ -389,6 +420,6 @@ rest(In, Count0, Count) :-
         rest(In, Count1, Count)
     ).
 
-socket_close(socket(In, Out)) :-
+socket_close(socket(_, In, Out)) :-
     catch(close(Out, [force(true)]), error(_, _), true),
     catch(close(In, [force(true)]), error(_, _), true).
