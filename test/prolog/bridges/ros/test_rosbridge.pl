@@ -512,6 +512,12 @@ test(properties_of_a_host_in_another_process) :-
 test(halting_program_prints_nothing, Said-Status == ""-exit(0)) :-
     with_rosbridge(URL, with_tmp_dir(halted(URL, Said, Status))).
 
+%   This server does not close its end, so the reader is interrupted.
+
+test(halting_program_prints_nothing_at_a_deaf_server,
+     Said-Status == ""-exit(0)) :-
+    with_deaf_server(URL, with_tmp_dir(halted(URL, Said, Status))).
+
 halted(URL, Said, Status, Dir) :-
     directory_file_path(Dir, 'program.pl', File),
     project_file('prolog/typhon.pl', Typhon),
