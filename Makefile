@@ -49,8 +49,8 @@ demo-robots: tools      ## simulated robots carry a pole, and push boxes
 demo-ros: tools tools-ros       ## agents drive robots of ROS 2, simulated
 	@$(SWIPL) -q app/demo_ros.pl
 
-demo-page: tools        ## sixty hosts in four processes, in a browser
-	@$(SWIPL) app/demo_page.pl
+demo-page: tools page-tools     ## sixty hosts, in a browser; PORT=8080
+	@$(SWIPL) app/demo_page.pl $(if $(PORT),-- --port=$(PORT))
 
 thesis: tools page-tools ## every figure of the thesis anew; RUNS=10, JOBS=2
 	@$(SWIPL) experiments/study.pl -- thesis --runs $(RUNS) \

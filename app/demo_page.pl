@@ -25,7 +25,9 @@ and failures until it is stopped.
 :- use_module(library(lists), [member/2]).
 :- use_module(library(main), [argv_options/3, main/0]).
 :- use_module(library(option), [option/3]).
-:- use_module(library(socket), [gethostname/1]).
+:- use_module(library(socket),
+              [ gethostname/1, tcp_bind/2, tcp_close_socket/1, tcp_setopt/2,
+                tcp_socket/1 ]).
 :- use_module('../prolog/typhon/kernel/base/process_setup', [on_stop_signals/1]).
 :- use_module(library(uri), [uri_components/2, uri_data/3]).
 :- use_module(library(random),
@@ -39,12 +41,35 @@ main(Argv) :-
     argv_options(Argv, _, Options),
     option(port(Port), Options, 8080),
     option(seed(Seed), Options, 1),
+    must_be_free(Port),
     on_stop_signals(stop),
     thread_create(demo(Port, Seed), Demo),
     thread_get_message(stop),
-    thread_send_message(Demo, stop),
+    catch(thread_send_message(Demo, stop), error(existence_error(_, _), _),
+          true),                        % it has ended by itself
     thread_join(Demo, Status),
-    ( Status == true -> halt(0) ; print_message(error, Status), halt(1) ).
+    (   Status == true
+    ->  halt(0)
+    ;   Status = exception(Ball)
+    ->  print_message(error, Ball),
+        halt(1)
+    ;   halt(1)
+    ).
+
+%   Before anything is started.
+
+must_be_free(Port) :-
+    tcp_socket(Socket),
+    catch(call_cleanup(( tcp_setopt(Socket, reuseaddr),
+                         tcp_bind(Socket, localhost:Port) ),
+                       tcp_close_socket(Socket)),
+          error(_, _), port_in_use(Port)).
+
+port_in_use(Port) :-
+    format(user_error, 'Port ~w cannot be used, another program may listen \c
+                        there: choose one by make demo-page PORT=8081, or \c
+                        PORT=0 for any~n', [Port]),
+    halt(1).
 
 %   In a thread of its own: while the main thread creates threads, a signal may
 %   reach a new thread, and would be lost.

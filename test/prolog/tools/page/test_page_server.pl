@@ -731,6 +731,19 @@ test(demo, Count-Status == 4-exit(0)) :-
                  process_kill(Pid, int),
                  wait_for_end(Pid, 20, Status) )).
 
+test(demo_at_a_port_in_use, Lines-Out-Status == 1-""-exit(1)) :-
+    project_file('app/demo_page.pl', Demo),
+    tcp_socket(Socket),
+    tcp_bind(Socket, localhost:Port),
+    tcp_listen(Socket, 5),
+    format(atom(Option), '--port=~d', [Port]),
+    call_cleanup(run_swipl([Demo, '--', Option], [], Status, Out, Err),
+                 tcp_close_socket(Socket)),
+    split_string(Err, "\n", "", Split),
+    length(Split, Count),
+    Lines is Count-1,
+    assertion(sub_string(Err, _, _, _, "PORT=0")).
+
 demo_at_work(Base, Count) :-
     answer(Base, _{ask:"survey"}, Scene),
     length(Scene.hosts, 60),
