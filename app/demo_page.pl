@@ -6,7 +6,8 @@
 
 Sixty hosts in four processes, whose links change.  Two mechanisms run there:
 agents execute sequences of tasks in step, while hosts lose tasks
-now and then; and antigens attack hosts, which release antibodies.  Prints the
+now and then; and antigens attack hosts, which release antibodies.  A supervisor
+restarts an inspector that fails every twelve seconds.  Prints the
 link to the page, and runs until Ctrl-C.
 
 *Threading*: the main thread starts the network; another thread causes attacks
@@ -15,7 +16,8 @@ and failures until it is stopped.
 
 :- use_module('../prolog/typhon/kernel/base/monotonic', [wait_within/2]).
 :- use_module('../prolog/typhon',
-              [ agent_property/2, network_property/2, network_start/3,
+              [ agent_create/3, agent_property/2, network_property/2,
+                network_start/3,
                 network_stop/1 ]).
 :- use_module('../prolog/typhon/tools/page', [page_serve/2, page_stop/0]).
 :- use_module('../agents/sieve/operator', [antigen_attack/2, sieve_start/3]).
@@ -111,7 +113,22 @@ begin(Port, Network, Hosts) :-
     page_serve([port(Port)], Link),
     print_link(Link),
     flush_output,
-    sieve_start(Hosts, payloads(sieve/bits), []).
+    sieve_start(Hosts, payloads(sieve/bits), []),
+    supervised(Hosts).
+
+%   An inspector fails after some steps, and its supervisor restarts it.
+
+supervised([Host|_]) :-
+    inspector(Program),
+    agent_create(agents(supervisor), _,
+                 [ host(Host),
+                   facts([child(inspector, Program, [])]) ]).
+
+inspector(clauses(
+    [ (:- agent(inspector, [])),
+      (main :- inspect(6)),
+      (inspect(N) :- N > 0, sleep(2), N1 is N-1, inspect(N1))
+    ])).
 
 %   The link is the first line, for programs.
 
