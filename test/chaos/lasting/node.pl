@@ -12,6 +12,8 @@ which it takes terms:
   - power(P): after each commit it arranges, with probability P, a simulated
     power failure during the next one
   - cut: its connections break
+  - rest: its host stops and starts again
+  - slow(S): each commit takes S seconds more
   - look: it prints its pending data for others, then `looked`
 
 Before the simulated power failure the files of the journal, which are fully
@@ -33,10 +35,16 @@ meanwhile. power.pl does the rest.
 :- dynamic
     probability/2,                      % Of, P
     journal/1,                          % Dir
+    slow/1,                             % Seconds that each commit takes more
+    begins/2,                           % Name, Options of its host
     fails/0.                            % the power fails
 
 :- multifile typhon_durable_changes:reached/1.
 
+typhon_durable_changes:reached(in_commit) :-
+    slow(Seconds),
+    sleep(Seconds),                     % a wait with a deadline may not end in
+    fail.                               % sig_atomic/1
 typhon_durable_changes:reached(Point) :-
     \+ fails,
     happens(dies),
@@ -89,7 +97,8 @@ main([Name, Port0, Dir, Sync, Seed0]) :-
     set_prolog_flag(verbose, silent),
     assertz(journal(Dir)),
     obey_first,
-    host_start(Name, [journal(Dir), sync(Sync), port(Port)]),
+    assertz(begins(Name, [journal(Dir), sync(Sync), port(Port)])),
+    begin,
     format('ready~n'),
     flush_output,
     repeat,
@@ -100,6 +109,10 @@ main([Name, Port0, Dir, Sync, Seed0]) :-
     ;   obey(Order),
         fail
     ).
+
+begin :-
+    begins(Name, Options),
+    host_start(Name, Options).
 
 %   The process may die before it has restarted.
 
@@ -117,6 +130,13 @@ obey(cut) :-
            typhon_session:session_locked(
                Session, typhon_writer:transport_broken(Key, Thread))).
 
+obey(rest) :-
+    begins(Name, _),
+    host_stop(Name),
+    begin.
+obey(slow(Seconds)) :-
+    retractall(slow(_)),
+    ( Seconds > 0 -> assertz(slow(Seconds)) ; true ).
 obey(look) :-
     forall(held(What), format(user_error, '~q~n', [What])),
     format(user_error, 'looked~n', []).

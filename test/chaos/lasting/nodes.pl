@@ -209,7 +209,8 @@ send_order(In, Term) :-
 %!  faults_end is det.
 %
 %   Options: crash(P), power(P), kill(Seconds) between faults from outside;
-%   faults(List), their kinds; most(N): no more faults after N.
+%   faults(List), their kinds; most(N): no more faults after N; slow(Seconds)
+%   that each commit takes more.
 
 faults_begin(Options) :-
     option(crash(P), Options, 0.001),
@@ -220,7 +221,8 @@ faults_begin(Options) :-
     option(kill(Seconds), Options, inf),
     option(most(Most), Options, inf),
     assertz(most(Most)),
-    tell_all([dies(P), power(W)]),
+    option(slow(Slow), Options, 0),
+    tell_all([dies(P), power(W), slow(Slow)]),
     (   Seconds == inf
     ->  true
     ;   option(faults(Faults), Options,
@@ -238,7 +240,7 @@ faults_end :-
     disarm.
 
 disarm :-
-    tell_all([dies(0), power(0)]).
+    tell_all([dies(0), power(0), slow(0)]).
 
 %!  nodes_check(+Nodes) is det.
 %
@@ -293,6 +295,11 @@ happens(stop, Pid-_) :-
     signalled(Pid, cont).
 happens(cut, _-In) :-
     with_mutex(lasting_orders, send_order(In, cut)).
+happens(rest, Pid-In) :-
+    ready(Pid),
+    !,
+    with_mutex(lasting_orders, send_order(In, rest)).
+happens(rest, _).
 happens(full, Pid-_) :-
     ready(Pid),                         % a process that is starting would end
     !,

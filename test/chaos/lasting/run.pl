@@ -4,7 +4,7 @@
 
     swipl test/chaos/lasting/run.pl -- [--seed N] [--seconds N]
         [--processes N] [--agents N] [--hops N] [--crash P] [--power P]
-        [--kill SECONDS] [--faults '[kill,kill_all,stop,cut,full]']
+        [--kill SECONDS] [--faults '[kill,kill_all,stop,cut,full,rest]'] [--slow S]
         [--sync normal|full] [--limit SECONDS]
 
 Runs rounds until the given seconds are over, each with the next seed, with
@@ -36,6 +36,7 @@ opt_type(hops,      hops,      integer).
 opt_type(crash,     crash,     number).
 opt_type(power,     power,     number).
 opt_type(kill,      kill,      number).
+opt_type(slow,      slow,      number).
 opt_type(faults,    faults,    term).
 opt_type(sync,      sync,      oneof([normal, full])).
 
