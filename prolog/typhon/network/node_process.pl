@@ -9,9 +9,9 @@
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../kernel/base/error_text', [error_text/2, print_error/2]).
-:- use_module('../kernel/base/durable_changes', [output_waits/0]).
 :- use_module('../kernel/base/process_setup',
               [on_stop_signals/1, process_setup/0]).
+:- use_module('../kernel/base/durable_changes', [durable_on/0]).
 :- use_module('../kernel/wire',
               [ arrival_permitted/4, peer_expect/1, peer_expect_no_more/1,
                 endpoint_address/1, endpoint_flush/2, endpoint_reply/2 ]).
@@ -350,7 +350,7 @@ raised(Error, raised(Formal, Text)) :-
 %   so that no agent observes that one of them ended first.
 
 hold :-
-    (   output_waits
+    (   durable_on
     ->  ignore(time_hold(0))
     ;   true
     ).
@@ -366,7 +366,7 @@ come_to_rest :-
 %   An error here cannot harm the contents of the journal, which are committed.
 
 stop :-
-    (   output_waits
+    (   durable_on
     ->  output_end,
         come_to_rest
     ;   true

@@ -6,7 +6,6 @@
             durable_end/0,
             durable_on/0,
             durable_closed/0,
-            output_waits/0,
             durable_number/1,           % -N
             durable_key/2,              % +Key, +N
             durable_put/4,              % +Kind, +Key, +N, +Term
@@ -39,6 +38,12 @@ send_after_commit/2. sync_changes/0 waits for the commit.
 The actions of an agent between two stops are one unit of work, too: its
 messages, and the facts that it leaves and takes, are deferred until it stops.
 
+A process that stops closes the journal at one moment, durable_close/0, and for
+all others it ends there, as by a crash: entries that are queued later are
+dropped, each as a whole, and no output leaves the process.  In the process
+durable_on/0 holds until its threads have stopped, so no unit of work is cut in
+two, and no agent or answer leaves as it would without a journal.
+
 The back end, which queues the changes, and has the store, is an option: it
 defines the hooks below, and all exports that have no clause here.  Without an
 open back end each change costs one call of durable_on/0, and nothing is
@@ -52,7 +57,7 @@ inside the mutex that guards its owner.
     durable_opened/1,
     durable_item/5,
     close_store/0,
-    end_commits/0,              % commit the queue, and stop
+    end_commits/0,              % close the queue, and commit it
     next_number/1,              % N: see durable_number/1
     durable_key/2,
     change/1,                   % Change: to be committed
@@ -76,8 +81,8 @@ inside the mutex that guards its owner.
 
 :- dynamic
     reached/1,
-    durable_on/0,
-    output_waits/0.
+    durable_closed/0,
+    durable_on/0.
 
                 /*******************************
                 *        OPEN AND CLOSE        *
@@ -99,17 +104,16 @@ inside the mutex that guards its owner.
 %   changes from now on.
 
 durable_begin :-
-    assertz(output_waits),
     assertz(durable_on).
 
 %!  durable_close is det.
 %
-%   Commit all changes.  From now on no output leaves the process, see
-%   sync_changes/0.
+%   Commit all changes.  From now on changes are dropped, and no output leaves
+%   the process.
 
 durable_close :-
     enqueue_changes,
-    retractall(durable_on),
+    ( durable_on -> assertz(durable_closed) ; true ),
     ignore(end_commits).
 
 %!  durable_end is det.
@@ -118,24 +122,18 @@ durable_close :-
 %   process again.
 
 durable_end :-
-    retractall(output_waits),
+    retractall(durable_on),
+    retractall(durable_closed),
     ignore(close_store).
 
 %!  durable_on is semidet.
 %
-%   Changes are queued: between durable_begin/0 and durable_close/0.
-
-%!  output_waits is semidet.
-%
-%   Output waits for the commit: between durable_begin/0 and durable_end/0.
+%   Changes are queued, and output waits for their commit: between
+%   durable_begin/0 and durable_end/0.
 
 %!  durable_closed is semidet.
 %
 %   Between durable_close/0 and durable_end/0.
-
-durable_closed :-
-    output_waits,
-    \+ durable_on.
 
                 /*******************************
                 *            CHANGES           *
@@ -195,7 +193,7 @@ unit_of_work(Goal) :-
 %   Queue the changes of this thread so far, as one entry.
 
 enqueue_changes :-
-    ( output_waits -> enqueue ; true ).
+    ( durable_on -> enqueue ; true ).
 
                 /*******************************
                 *        DEFERRED EFFECTS      *
@@ -228,25 +226,27 @@ effects_deferred :-
 
 %!  sync_changes is det.
 %
-%   Return when all earlier changes are committed.
+%   Return when all earlier changes of this thread are committed.
 %
-%   @error resource_error(_): the store is full
-%   @error existence_error(_, open): the store was closed
+%   @error resource_error(_) and others: the store takes no commits now.  The
+%          changes are committed as soon as it does, if the process lives
+%   @error existence_error(_, open): the store was closed, and changes of this
+%          thread were dropped
 
 sync_changes :-
-    ( output_waits -> sync ; true ).
+    ( durable_on -> sync ; true ).
 
 %!  commit_changes is det.
 %
 %   As sync_changes/0, but no error after durable_close/0.
 
 commit_changes :-
-    ( output_waits -> commit ; true ).
+    ( durable_on -> commit ; true ).
 
 %!  send_after_commit(+Item, +When) is det.
 %
-%   While output waits, see output_waits/0: pass Item to committed/1 when all
-%   earlier changes are committed, in the order of these calls.
+%   While durable_on/0 holds: pass Item to committed/1 when all earlier changes
+%   are committed, in the order of these calls.
 %
 %   @arg When is `now` if a caller waits for it; `anyhow` if a caller waits and
 %        the error of the last commit shall not be raised; `later` if the

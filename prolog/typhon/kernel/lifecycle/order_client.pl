@@ -12,7 +12,7 @@
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(option), [option/2]).
 :- use_module('../base/options', [check_options/2]).
-:- use_module('../base/durable_changes', [output_waits/0, sync_changes/0]).
+:- use_module('../base/durable_changes', [sync_changes/0]).
 :- use_module('../program', [payload_load/2]).
 :- use_module('../host',
               [address_parts/3, as_guest/1, context_now/2, host_address/2]).
@@ -159,6 +159,8 @@ agent_answer(Agent, Question, Seconds, Answer) :-
 %   @error host_unreachable(Host)
 %   @error resource_error(frame_bytes) Message is too long to be sent
 %   @error type_error(mobile_term, Culprit)
+%   @error existence_error(journal, open): this process stops, and Message is not
+%          sent.  After other errors of the journal it may be: see doc/journal.md
 
 agent_send(at(Agent, Host), Message) :-
     !,
@@ -177,7 +179,7 @@ agent_send(Agent, Message) :-
         sender(From),
         as_guest(post(Id, From, Message))
     ),
-    ( output_waits -> sync_changes ; true ).
+    sync_changes.
 
 sender(From) :-
     (   context_now(_, Agent),

@@ -207,13 +207,25 @@ task_goals(_, [true]).
 %   on elsewhere or has ended: then there is nothing to repair.
 
 not_completed(Id, Goals) :-
-    turn_settled,
     agent_status(Id, Status, _),
     memberchk(Status, [running, obeying]),
     !,
     fault_note(none),
-    unit_of_work(agent_fails(Id, raised(error(step_not_completed, _)), Goals)),
+    concluded(Id, failed,
+              agent_fails(Id, raised(error(step_not_completed, _)), Goals)),
     turn_over(Id).
+not_completed(_, _) :-
+    turn_settled,
+    fail.
+
+%   concluded(+Id, +Outcome, :Goal): what Id has done, and Goal, which ends its
+%   turn, are one unit of work.
+
+concluded(Id, Outcome, Goal) :-
+    (   unit(_, Whole)
+    ->  call(Whole, Id, Outcome, typhon_turn:Goal, stop)
+    ;   unit_of_work(Goal)
+    ).
 
 perform(later, _).
 perform(order(Order, Goals), Id) :-
@@ -271,8 +283,7 @@ broken_off(Ball, Id) :-
     sig_atomic(( context_clear,
                  turn_broken(Outcome),
                  over_limit(Id, Outcome),
-                 turn_settled,
-                 ignore(agent_end(Id, Outcome)) )),
+                 concluded(Id, Outcome, ignore(agent_end(Id, Outcome))) )),
     throw(Ball).
 
 over_limit(Id, raised(error(resource_error(What), _))) :-

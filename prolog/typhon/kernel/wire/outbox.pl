@@ -30,7 +30,7 @@ This module has the predicates that senders call; writer.pl writes.
 :- use_module(library(error), [resource_error/1]).
 :- use_module(library(lists), [list_to_set/2, member/2]).
 :- use_module('../base/durable_changes',
-              [flush_sends/0, output_waits/0, send_after_commit/2]).
+              [durable_on/0, flush_sends/0, send_after_commit/2]).
 :- use_module(frame, [bundle_fits/1, bytes_term/3, term_bytes/3]).
 :- use_module(session,
               [ session_codec/2, session_held/2, session_key/2,
@@ -78,7 +78,7 @@ send(Session, Term, When) :-
     send_bytes(Session, Bytes, none, When).
 
 send_bytes(Session, Bytes, Token, When) :-
-    (   output_waits
+    (   durable_on
     ->  send_committed(Session, Bytes, Token, When)
     ;   session_locked(Session, put_frame(Session, Bytes, Token, flush))
     ).
@@ -213,7 +213,7 @@ session_send_later(Session, Term) :-
     session_answer(Session, Term).
 
 buffer(Session, Bytes) :-
-    (   output_waits
+    (   durable_on
     ->  send_committed(Session, Bytes, none, later)
     ;   session_locked(Session, put_frame(Session, Bytes, none, buffer))
     ).
@@ -245,11 +245,11 @@ session_later(Count) :-
 %   Send the frames that this thread has buffered.
 
 session_push(Session) :-
-    ( output_waits -> flush_sends ; true ),
+    ( durable_on -> flush_sends ; true ),
     nb_getval(typhon_later, Later),
     (   arg(3, Later, true)
     ->  session_acknowledge(Session)
-    ;   output_waits
+    ;   durable_on
     ->  true
     ;   session_key(Session, Key),
         session_locked(Session, flush_out(Key))

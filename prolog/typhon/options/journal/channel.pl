@@ -7,8 +7,8 @@
 :- use_module('../../kernel/base/durable', [durable/5]).
 :- use_module('../../kernel/base/durable_changes',
               [ crash_point/1, durable_drop/3, durable_drop_below/3,
-                durable_number/1, durable_on/0, durable_put/4,
-                enqueue_changes/0, output_waits/0, unit_of_work/1 ]).
+                durable_closed/0, durable_number/1, durable_put/4,
+                enqueue_changes/0, unit_of_work/1 ]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/wire',
               [ arrival_permitted/4, endpoint_address/1, endpoint_gone/1,
@@ -223,8 +223,7 @@ is_ending :-
     \+ endpoint_address(_),
     !.
 is_ending :-
-    output_waits,
-    \+ durable_on.
+    durable_closed.
 
 %   Endpoint is gone and keeps no journal, so it will never receive the posts.
 

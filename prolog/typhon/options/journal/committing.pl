@@ -4,8 +4,10 @@
             queue_send/1,               % +Item
             queue_flush/0,
             queue_error/1,              % -Error
+            queue_must_keep/0,
             commit_queue/0
           ]).
+:- use_module(library(error), [existence_error/2]).
 :- use_module(library(lists), [append/3, reverse/2]).
 :- use_module(library(rbtrees), [rb_insert_new/4, rb_new/1]).
 :- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
@@ -29,6 +31,9 @@ output to send commits itself.  Entries without a waiting thread are committed
 after some milliseconds.  After a failed commit the changes and the output are
 kept, and the commit is tried again each second.
 
+The close of the queue is one moment: entries from before are in the last
+commit, later ones are dropped, each as a whole.
+
 *Threading*: any thread.  One thread at a time commits; it holds a mutex in
 which it may take those of sessions, so a thread that holds a mutex of a session
 must not commit.
@@ -41,7 +46,8 @@ must not commit.
     queue/3,                            % Entries, Committer, Sync
     unsaved/2,                          % Changes and items that wait for them
     committer/1,                        % Server
-    reported/1.                         % Error: commits fail with it
+    reported/1.                         % Error: commits fail with it, or the
+                                        % last one has failed
 
 %   Delay before an idle commit, and before a failed commit is tried again.
 
@@ -56,6 +62,8 @@ commits_begin :-
     on_signal(xfsz, _, typhon_committing:file_too_long),
     store_sync(Sync),
     set_flag(typhon_journal_awake, 0),
+    flag(typhon_journal_start, N, N+1),
+    retractall(reported(_)),
     server_start(journal, typhon_committing:commits, none, Committer),
     message_queue_create(Entries),
     assertz(queue(Entries, Committer, Sync)),
@@ -68,18 +76,20 @@ commits_begin :-
 
 file_too_long(_).
 
-%   Commit all that can be committed.  Fails if commits had not begun.
+%   Fails if commits had not begun.
 
 typhon_durable_changes:end_commits :-
     retract(committer(Committer)),
     !,
-    queue(Entries, _, _),
     server_stop(Committer),
-    catch(commit_queue, error(Formal, Context),
-          print_message(error, error(Formal, Context))),
-    retractall(queue(_, _, _)),
+    sig_atomic(with_mutex(typhon_commit, last_commit)).
+
+last_commit :-
+    with_mutex(typhon_entries, retract(queue(Entries, _, _))),
+    catch(commit_all(Entries), error(Formal, Context),
+          ( print_message(error, error(Formal, Context)),
+            assertz(reported(error(Formal, Context))) )),
     retractall(unsaved(_, _)),
-    retractall(reported(_)),
     message_queue_destroy(Entries).
 
                 /*******************************
@@ -94,17 +104,42 @@ typhon_durable_changes:end_commits :-
 %   fails.
 
 queue_entry(Changes) :-
-    queue(Entries, _, _),
-    !,
-    thread_send_message(Entries, Changes),
-    wake(idle).
-queue_entry(_).
+    (   queued(Changes)
+    ->  true
+    ;   get_flag(typhon_journal_start, Start),
+        nb_setval(typhon_journal_dropped, Start)
+    ).
 
 queue_send(Item) :-
+    queued(item(Item)).
+
+%   The mutex decides for each entry whether it precedes the last commit.
+
+queued(Entry) :-
+    with_mutex(typhon_entries, put_entry(Entry)),
+    wake(idle).
+
+put_entry(Entry) :-
     queue(Entries, _, _),
     !,
-    thread_send_message(Entries, item(Item)),
-    wake(idle).
+    thread_send_message(Entries, Entry).
+
+%!  queue_must_keep is det.
+%
+%   The journal has or will have all entries of this thread, since it was opened.
+%
+%   @error existence_error(journal, open) if it was closed before one of them;
+%          the error of the last commit
+
+queue_must_keep :-
+    (   nb_current(typhon_journal_dropped, Start),
+        get_flag(typhon_journal_start, Start)
+    ->  existence_error(journal, open)
+    ;   \+ queue(_, _, _),
+        queue_error(Error)
+    ->  throw(Error)
+    ;   true
+    ).
 
 %   wake(+How): the committer commits after a delay (`idle`), or `now`.
 
@@ -114,8 +149,8 @@ wake(How) :-
         Awake >= Urgency
     ->  true
     ;   set_flag(typhon_journal_awake, Urgency),
-        queue(_, Committer, _),
-        ignore(server_cast(Committer, How))     % fails after the end
+        ignore(( queue(_, Committer, _),        % fails after the end
+                 server_cast(Committer, How) ))
     ).
 
 urgency(idle, 1).
@@ -127,13 +162,18 @@ queue_error(Error) :-
     reported(Error),
     !.
 
-%   Messages sent after the journal was closed are dropped.
+%   What happens after the journal was closed has not happened.
 
 :- multifile user:message_hook/3.
 :- dynamic user:message_hook/3.
 
-user:message_hook(error(existence_error(journal, open), _), _, _) :-
-    durable_closed.
+user:message_hook(Message, _, _) :-
+    durable_closed,
+    (   Message = typhon(raised(Error))
+    ->  true
+    ;   Error = Message
+    ),
+    subsumes_term(error(existence_error(journal, open), _), Error).
 
                 /*******************************
                 *            COMMIT            *
@@ -141,12 +181,12 @@ user:message_hook(error(existence_error(journal, open), _), _, _) :-
 
 %!  commit_queue is det.
 %
-%   Commit now, and return when it is done.
+%   Commit now, and return when it is done, or when the last commit is over.
 %
 %   @error resource_error(journal_space)
 
 commit_queue :-
-    sig_atomic(( with_mutex(typhon_commit, commit_all),
+    sig_atomic(( with_mutex(typhon_commit, commit_open),
                  commit_if_wanted )).
 
 %!  queue_flush is det.
@@ -178,7 +218,7 @@ commit_or_leave.
 
 commit_locked :-
     set_flag(typhon_journal_wanted, 0),
-    call_cleanup(catch(commit_all, error(_, _), true),
+    call_cleanup(catch(commit_open, error(_, _), true),
                  mutex_unlock(typhon_commit)),
     commit_if_wanted.
 
@@ -188,9 +228,13 @@ commit_if_wanted :-
     ;   true
     ).
 
-commit_all :-
-    queue(Entries, _, _),
-    !,
+commit_open :-
+    (   queue(Entries, _, _)
+    ->  commit_all(Entries)
+    ;   true
+    ).
+
+commit_all(Entries) :-
     fifo_empty(Entries, New),
     split_entries(New, Changes0, Items0),
     (   retract(unsaved(Changes1, Items1))
@@ -204,7 +248,6 @@ commit_all :-
     ->  true
     ;   release(Items)
     ).
-commit_all.                             % closed meanwhile
 
 release(Items) :-
     catch(ignore(typhon_durable_changes:committed(Items)),

@@ -78,7 +78,7 @@ typhon_turn:unit(typhon_units_of_work:defer_effects,
     durable_on.
 
 typhon_turn:settle :-
-    deferred_commit,
+    unit_of_work(deferred_commit),
     deferred_release.
 
 :- public conclude/4.

@@ -14,19 +14,19 @@
             deferred_commit/0,
             deferred_release/0
           ]).
-:- use_module(library(error), [resource_error/1]).
+:- use_module(library(error), [existence_error/2, resource_error/1]).
 :- use_module(library(lists), [member/2]).
 :- autoload(library(uri), [uri_encoded/3]).
 :- use_module('../../kernel/base/durable', [durable/5]).
 :- use_module('../../kernel/base/durable_changes',
-              [ durable_begin/0, durable_drop/3, durable_key/2,
-                durable_on/0, unit_of_work/1 ]).
+              [ durable_begin/0, durable_closed/0, durable_drop/3,
+                durable_key/2, durable_on/0, unit_of_work/1 ]).
 :- use_module('../../kernel/base/on_demand', [on_demand_load/2]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/wire', [frame_fits/1]).
 :- use_module(committing,
               [ commit_queue/0, commits_begin/0, queue_error/1, queue_flush/0,
-                queue_entry/1, queue_send/1 ]).
+                queue_entry/1, queue_must_keep/0, queue_send/1 ]).
 
 /** <module> Units of work, and effects that are deferred
 
@@ -246,14 +246,9 @@ enqueue :-
                 *******************************/
 
 typhon_durable_changes:sync :-
-    (   durable_on
-    ->  enqueue,
-        commit_queue
-    ;   closed
-    ).
-
-closed :-
-    throw(error(existence_error(journal, open), _)).
+    enqueue,
+    commit_queue,
+    queue_must_keep.
 
 typhon_durable_changes:commit :-
     enqueue,
@@ -262,10 +257,9 @@ typhon_durable_changes:commit :-
 typhon_durable_changes:send_after_commit(Item, When) :-
     enqueue,
     may_wait(When),
-    (   durable_on,
-        queue_send(Item)
+    (   queue_send(Item)
     ->  true
-    ;   closed
+    ;   existence_error(journal, open)
     ),
     (   When == later
     ->  true
@@ -337,6 +331,9 @@ typhon_durable_changes:deferred_act(Kind, Key, Term, By) :-
     assertz(deferred(Change)),
     deferred_call(act(Kind, N, Key, Term)).
 
+act(_, _, _, _) :-
+    durable_closed,                     % the next start does it
+    !.
 act(Kind, N, Key, Term) :-
     unit_of_work(( durable_drop(Kind, Key, N),
                    ignore(typhon_durable_changes:act(Kind, Key, Term)) )).
