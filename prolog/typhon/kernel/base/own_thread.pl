@@ -2,6 +2,7 @@
           [ in_own_thread/1,            % :Goal
             own_thread_start/0,
             own_thread_stop/0,
+            stop_steps/1,                       % :Steps
             stop_thread/1,                      % +Thread
             abort_quietly/0
           ]).
@@ -26,8 +27,12 @@ goals directly: so the helper never waits for itself.
               [ server_answer/2, server_call/4, server_leave/1, server_start/4,
                 server_stop/1 ]).
 
+:- use_module(library(lists), [member/2]).
+:- use_module(error_text, [print_error/2]).
+
 :- meta_predicate
-    in_own_thread(0).
+    in_own_thread(0),
+    stop_steps(:).
 
 :- dynamic
     helper/1,                   % Server
@@ -119,6 +124,26 @@ help(call(Goal, Caller), State, State) :-
     ;   Result = false
     ),
     server_answer(Caller, Result).
+
+                /*******************************
+                *             STEPS            *
+                *******************************/
+
+%!  stop_steps(:Steps:list) is det.
+%
+%   Do all Steps, in this order, whatever they raise: nothing must be left half
+%   stopped.  A step is a goal, or each(Hook): every clause of Hook is a step.
+%   Errors are printed.
+
+stop_steps(Module:Steps) :-
+    forall(member(Step, Steps), stop_step(Step, Module)).
+
+stop_step(each(Hook), Module) :-
+    !,
+    forall(clause(Module:Hook, Body), stop_step(Body, Module)).
+stop_step(Goal, Module) :-
+    catch(forall(Module:Goal, true), error(Formal, Context),
+          print_error(error, error(Formal, Context))).
 
                 /*******************************
                 *       THREADS THAT END       *

@@ -19,7 +19,7 @@
 :- use_module('../base/names', [must_be_name/2]).
 :- use_module('../base/monotonic', [monotonic_time/1]).
 :- use_module('../base/options', [check_options/2]).
-:- use_module('../base/own_thread', [in_own_thread/1]).
+:- use_module('../base/own_thread', [in_own_thread/1, stop_steps/1]).
 :- use_module('../base/durable_changes',
               [ durable_close/0, durable_closed/0, durable_end/0,
                 sync_changes/0 ]).
@@ -209,14 +209,11 @@ hosts_rest :-
 %   that other agents are gone.
 
 rest :-
-    durable_close,
     findall(Name, host(Name, _, _), Names),
-    forall(member(Name, Names), stop_one(Name)),
-    time_let_go(_),
-    (   endpoint_address(_)
-    ->  true
-    ;   durable_end
-    ).
+    stop_steps([ durable_close,
+                 forall(member(Name, Names), stop_one(Name)),
+                 time_let_go(_),
+                 ( endpoint_address(_) -> true ; durable_end ) ]).
 
 %   A host with a clock is one of a network, and accepts its kind of time.
 
@@ -265,9 +262,10 @@ place_parts(Options, Files, Services) :-
 %
 %   Dispose of the agents on Name, a host of this process, and release all its
 %   resources.  If the process has a journal, and Name is its last host, the
-%   agents stay in the journal instead.
+%   agents stay in the journal instead.  Errors on the way are printed, and the
+%   host stops nevertheless.  If the caller is interrupted, the stop goes on.
 %
-%   @error existence_error(host, Name)
+%   @error existence_error(host, Name), also if another thread stops it
 
 host_stop(Name) :-
     must_be(atom, Name),
@@ -275,44 +273,49 @@ host_stop(Name) :-
 
 stop(Name) :-
     stop_one(Name),
-    (   host(_, _, _)
-    ->  true
-    ;   durable_end
-    ).
+    stop_steps([( host(_, _, _) -> true ; durable_end )]).
+
+%   The order of a stop.  The close of the journal comes first: for the journal
+%   and for all peers the process ends there, and what its threads do until they
+%   have stopped is dropped, see typhon_durable_changes.
 
 stop_one(Name0) :-
     local_name(Name0, Name),
     host(Name, Address, Place),
-    close_last(Name),
-    (   durable_closed
-    ->  events_forget(Name)             % an agent in the journal does not end
-    ;   true
-    ),
-    host_close(Name),
-    forall(closes(Name), true),
-    monotonic_time(Now),
-    setting(stop_seconds, Seconds),
-    Deadline is Now+Seconds,
-    forall(evacuate(Name, Deadline), true),
-    host_unlink(_, Address),
-    event(hosts, Name, none, stopped),
-    host_remove(Name),
-    events_forget(Name),
-    forall(typhon_host_parts:ends(Name), true),
-    clock_clear(Name),
-    place_destroy(Place),
-    debug(typhon(host), '~w is stopped', [Address]),
-    runtime_release(host(Name)).
+    stop_steps([ close_last(Name),
+                 host_close(Name),
+                 each(closes(Name)),
+                 evacuate(Name),
+                 host_unlink(_, Address),
+                 event(hosts, Name, none, stopped),
+                 host_remove(Name),
+                 events_forget(Name),
+                 each(typhon_host_parts:ends(Name)),
+                 clock_clear(Name),
+                 place_destroy(Place),
+                 debug(typhon(host), '~w is stopped', [Address]),
+                 runtime_release(host(Name)) ]).
 
 %   With the last host the process ends: the store keeps its contents, and the
-%   next start resumes them.
+%   next start resumes them.  An agent in the journal does not end, so no event
+%   reports it.
 
 close_last(Name) :-
     (   host(Other, _, _),
         Other \== Name
     ->  true
     ;   durable_close
+    ),
+    (   durable_closed
+    ->  events_forget(Name)
+    ;   true
     ).
+
+evacuate(Name) :-
+    monotonic_time(Now),
+    setting(stop_seconds, Seconds),
+    Deadline is Now+Seconds,
+    stop_steps([each(evacuate(Name, Deadline))]).
 
 local_name(Host, Name) :-
     host_resolve(Host, Where),

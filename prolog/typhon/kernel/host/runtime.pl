@@ -16,7 +16,8 @@
 :- use_module('../base/on_demand', [on_demand_load/2]).
 :- use_module('../base/process_setup', [descriptors_open/0]).
 :- use_module('../base/own_thread',
-              [in_own_thread/1, own_thread_start/0, own_thread_stop/0]).
+              [ in_own_thread/1, own_thread_start/0, own_thread_stop/0,
+                stop_steps/1 ]).
 :- use_module('../base/durable_changes', [durable_end/0]).
 :- use_module('../program', [code_clear/0]).
 :- use_module('../wire',
@@ -104,7 +105,9 @@ start(Kind, Options) :-
             forall(beginning(Kind), true)
           ),
           Ball,
-          ( time_stop, monotonic_stop, own_thread_stop, throw(Ball) )),
+          ( stop_steps([ endpoint_stop, time_stop, monotonic_stop,
+                         own_thread_stop ]),
+            throw(Ball) )),
     forget_erased.
 
 start_endpoint(Kind, _) :-
@@ -156,14 +159,9 @@ released(Endpoint) :-
     !,
     endpoint_listen_end(Endpoint).
 released(_) :-
-    forall(ending(before), true),
-    endpoint_stop,
-    durable_end,
-    time_stop,
-    code_clear,
-    forall(ending(after), true),
-    monotonic_stop,
-    own_thread_stop.
+    stop_steps([ each(ending(before)), endpoint_stop, time_stop, durable_end,
+                 code_clear, each(ending(after)), monotonic_stop,
+                 own_thread_stop ]).
 
                 /*******************************
                 *            GUESTS            *

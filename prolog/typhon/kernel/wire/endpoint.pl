@@ -48,7 +48,7 @@ under the mutex of the endpoint.
 :- use_module('../base/durable_changes',
               [ durable_item/5, durable_opened/1, durable_put/4,
                 sync_changes/0 ]).
-:- use_module('../base/own_thread', [in_own_thread/1]).
+:- use_module('../base/own_thread', [in_own_thread/1, stop_steps/1]).
 :- use_module('../base/reports', [reports_end/0]).
 :- use_module(addresses,
               [ announced/4, endpoint_parts/3, must_be_reachable/2,
@@ -297,21 +297,23 @@ stop :-
     debug(typhon(session), 'endpoint: stops at ~w', [Address]),
     findall(Each, listening(Each, _, _, _), All),
     reverse(All, LastToFirst),
-    maplist(listen_no_more, LastToFirst),
     setting(flush_time, Seconds),
-    in_own_thread(ignore(peers_flush(Seconds))),
-    forall(session(_, Session), session_control(Session, bye)),
-    manager_end,
-    wire_threads_end,
-    accept_no_more,
-    forall(session(_, Session),
-           ( session_close(Session, Unsent),
-             requests_lost(Session, Unsent) )),
-    transport_end,
-    reports_end.
+    stop_steps([ maplist(listen_no_more, LastToFirst),
+                 in_own_thread(ignore(peers_flush(Seconds))),
+                 forall(session(_, Session), session_control(Session, bye)),
+                 manager_end,
+                 wire_threads_end,
+                 accept_no_more,
+                 forall(session(_, Session), close_session(Session)),
+                 transport_end,
+                 reports_end ]).
 stop :-
     alone_end,
     reports_end.
+
+close_session(Session) :-
+    session_close(Session, Unsent),
+    requests_lost(Session, Unsent).
 
 %!  endpoint_address(?Address) is semidet.
 %
