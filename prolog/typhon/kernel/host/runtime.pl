@@ -4,13 +4,14 @@
             runtime_release/1,          % +User
             process_ask/6,              % +Endpoint, +Host, +Kind, +Term,
                                         % -Answer, +Seconds
-            as_guest/1                  % :Goal
+            as_guest/1,                 % :Goal
+            guests_leave/0
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [permission_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
-:- use_module('../base/monotonic', [monotonic_start/0, monotonic_stop/0]).
+:- use_module('../base/monotonic', [monotonic_start/0, monotonic_stop/0, poll_within/2]).
 :- use_module('../base/prolog_faults',
               [collect_clauses_less_often/0, forget_erased/0, functors_room/0]).
 :- use_module('../base/on_demand', [on_demand_load/2]).
@@ -199,19 +200,41 @@ unreachable(Endpoint, Host) :-
 %!  as_guest(:Goal) is semidet.
 %
 %   As once(Goal).  If this process has no endpoint, or has it only for other
-%   guests, it has one while Goal runs.
+%   guests, it has one while Goal runs.  While hosts start or stop this waits.
 
 as_guest(Goal) :-
-    (   user(User, _),
-        User \= guest(_)
-    ;   own_thread
-    ),
+    ( no_guest ; own_thread ),
     !,
     once(Goal).
 as_guest(Goal) :-
+    with_mutex(typhon_hosting, guest_enters(Guest)),
+    setup_call_cleanup(true, once(Goal), runtime_release(Guest)).
+
+no_guest :-
+    user(User, _),
+    User \= guest(_),
+    !.
+
+guest_enters(none) :-
+    no_guest,
+    !.
+guest_enters(guest(N)) :-
     flag(typhon_guest, N, N+1),
-    runtime_acquire(guest(N), []),
-    setup_call_cleanup(true, once(Goal), runtime_release(guest(N))).
+    runtime_acquire(guest(N), []).
+
+%!  guests_leave is det.
+%
+%   For the thread that starts a host: wait until the questions of guests are
+%   over, or have taken too long, and the runtime of former users has stopped.
+
+guests_leave :-
+    longest_question(Seconds),
+    in_own_thread(ignore(poll_within(Seconds, no_guests))).
+
+no_guests :-
+    with_mutex(typhon_runtime, \+ user(guest(_), _)).
+
+longest_question(10).
 
 own_thread :-
     thread_self(Me),

@@ -13,7 +13,7 @@
               [ durable_close/0, durable_drop_all/2, durable_end/0,
                 durable_item/5, durable_opened/1 ]).
 :- use_module('../../kernel/host',
-              [ host/3, host_again/1, host_begin/2, host_end/1, host_note/1,
+              [ guests_leave/0, host/3, host_again/1, host_begin/2, host_end/1, host_note/1,
                 hosts_exclusively/1, hosts_go_on/0, time_apart/2,
                 time_wanted/2 ]).
 :- use_module('../../kernel/agent', [agent/5, agent_status/3]).
@@ -198,6 +198,7 @@ give_up_hosts :-
 %   @error permission_error(open, journal, Place), and as journal_open/3
 
 open_journal(Where, _) :-
+    guests_leave,
     endpoint_address(_),
     !,
     not_here(Where, 'this process has hosts already').
