@@ -22,6 +22,14 @@ test(ten_thousand_hops_lose_and_duplicate_no_agent, Wrong == []) :-
                             crash(0.00003), kill(3), most(30) ],
                           Wrong)).
 
+%   Hosts stop and start again while agents hop and send, and each commit takes
+%   a while.
+
+test(stopped_hosts_lose_and_duplicate_no_agent, Wrong == []) :-
+    with_tmp_dir(attacked([ processes(3), agents(6), hops(30), crash(0),
+                            kill(0.6), faults([rest]), slow(0.05), most(15) ],
+                          Wrong)).
+
 attacked(Options, Wrong, Dir) :-
     random_between(1, 1000000, Seed),
     format('% seed ~d~n', [Seed]),
