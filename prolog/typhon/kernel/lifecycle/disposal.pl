@@ -186,15 +186,7 @@ interrupt(Host, Agent) :-
 :- multifile typhon_hosting:evacuate/2.
 
 typhon_hosting:evacuate(Host, Deadline) :-
-    (   durable_closed
-    ->  forall(agent(Id, Host, _, _, _),
-               ignore(agent_forgotten(Id, under_way)))
-    ;   true
-    ),
     evacuate(Host, Deadline).
-
-under_way(transit(_, _)).
-under_way(cloning(_, _)).
 
 %   Nearly always all agents are at rest, and this does not wait.  Else it polls
 %   every 10 ms: with a notification each arrival, return and end of a turn
@@ -228,6 +220,10 @@ evacuated(Host, Deadline) :-
 
 end_or_order(Host, Deadline) :-
     findall(Id, agent(Id, Host, _, _, _), Ids),
+    (   durable_closed                  % the journal has it under way
+    ->  forall(member(Id, Ids), ignore(agent_forgotten(Id, under_way)))
+    ;   true
+    ),
     forall(( member(Id, Ids), stays(Id) ),
            ignore(order_take(Id, evacuate(Host)))),
     monotonic_time(Now),
@@ -235,6 +231,9 @@ end_or_order(Host, Deadline) :-
     ->  interrupt_all(Host, Ids)
     ;   true
     ).
+
+under_way(transit(_, _)).
+under_way(cloning(_, _)).
 
 %   An agent that is `ready` is at rest, whatever its orders.
 
