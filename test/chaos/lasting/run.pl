@@ -4,8 +4,8 @@
 
     swipl test/chaos/lasting/run.pl -- [--seed N] [--seconds N]
         [--processes N] [--agents N] [--hops N] [--crash P] [--power P]
-        [--kill SECONDS] [--faults '[kill,kill_all,stop,cut,full,rest]'] [--slow S]
-        [--sync normal|full] [--limit SECONDS]
+        [--kill SECONDS] [--faults '[kill,kill_all,stop,cut,full,rest]']
+        [--slow SECONDS] [--sync normal|full] [--limit SECONDS]
 
 Runs rounds until the given seconds are over, each with the next seed, with
 sync(normal) and sync(full) in turn if none is given. The exit status is 0 if

@@ -11,7 +11,8 @@
 :- use_module(library(error), [permission_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
-:- use_module('../base/monotonic', [monotonic_start/0, monotonic_stop/0, poll_within/2]).
+:- use_module('../base/monotonic',
+              [monotonic_start/0, monotonic_stop/0, poll_within/2]).
 :- use_module('../base/prolog_faults',
               [collect_clauses_less_often/0, forget_erased/0, functors_room/0]).
 :- use_module('../base/on_demand', [on_demand_load/2]).

@@ -159,8 +159,9 @@ agent_answer(Agent, Question, Seconds, Answer) :-
 %   @error host_unreachable(Host)
 %   @error resource_error(frame_bytes) Message is too long to be sent
 %   @error type_error(mobile_term, Culprit)
-%   @error existence_error(journal, open): this process stops, and Message is not
-%          sent.  After other errors of the journal it may be: see doc/journal.md
+%   @error existence_error(journal, open): this process stops, and Message is
+%          not sent.  With other errors of the journal it may be, see
+%          doc/journal.md
 
 agent_send(at(Agent, Host), Message) :-
     !,

@@ -126,7 +126,7 @@ put_entry(Entry) :-
 
 %!  queue_must_keep is det.
 %
-%   The journal has or will have all entries of this thread, since it was opened.
+%   The journal has or will have all entries of this thread since it was opened.
 %
 %   @error existence_error(journal, open) if it was closed before one of them;
 %          the error of the last commit

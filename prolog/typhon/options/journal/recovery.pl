@@ -13,9 +13,9 @@
               [ durable_close/0, durable_drop_all/2, durable_end/0,
                 durable_item/5, durable_opened/1 ]).
 :- use_module('../../kernel/host',
-              [ guests_leave/0, host/3, host_again/1, host_begin/2, host_end/1, host_note/1,
-                hosts_exclusively/1, hosts_go_on/0, time_apart/2,
-                time_wanted/2 ]).
+              [ guests_leave/0, host/3, host_again/1, host_begin/2,
+                host_end/1, host_note/1, hosts_exclusively/1, hosts_go_on/0,
+                time_apart/2, time_wanted/2 ]).
 :- use_module('../../kernel/agent', [agent/5, agent_status/3]).
 :- use_module('../../kernel/lifecycle', [agent_reschedule/1]).
 :- use_module('../../kernel/wire', [endpoint_address/1, endpoint_open/0]).

@@ -229,7 +229,8 @@ raised_at(Step, Dir) :-
     agent_create(Program, Keeper),
     agent_send(Keeper, one),
     setup_call_cleanup(
-        wrap_predicate(Step, stop, Wrapped, plunit_stop:done_and_raise(Wrapped)),
+        wrap_predicate(Step, stop, Wrapped,
+                       plunit_stop:done_and_raise(Wrapped)),
         quietly(host_stop(alpha)),
         unwrapped(Step)),
     running(Dir, got(Keeper, [one])).
