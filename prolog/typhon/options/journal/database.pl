@@ -46,7 +46,8 @@ at a URL, see typhon_postgresql; higher layers do not know which.
     record_drop/1,              % Base
     error_words/3,              % Base, Words, What: a driver error with one of
                                 % Words means `locked`, `unwritable`, `full`,
-                                % `unreachable` or missing(Package)
+                                % `unwritten`, `unreachable` or
+                                % missing(Package)
     prolog:error_message//1.
 
 %!  database(+Where, -Place:atom, -Base) is det.
@@ -253,7 +254,8 @@ means(postgresql(_), State, _, unreachable) :-
 error_words(sqlite(_), ['is locked'], locked).
 error_words(sqlite(_), [readonly, 'unable to open', 'connect failed'],
             unwritable).
-error_words(sqlite(_), ['is full', 'disk I/O'], full).
+error_words(sqlite(_), ['is full'], full).
+error_words(sqlite(_), ['disk I/O'], unwritten).
 error_words(sqlite(_), [driver, 'Driver', 'Data source'],
             missing(libsqliteodbc)).
 
@@ -263,10 +265,35 @@ throw_meaning(unwritable, _, Place) :-
     not_opened(Place, 'it cannot be written').
 throw_meaning(full, _, _) :-
     throw(error(resource_error(journal_space), _)).
+throw_meaning(unwritten, Text, Place) :-
+    (   write_fails(Place, Why)
+    ->  true
+    ;   Why = Text
+    ),
+    (   is_space(Why)
+    ->  throw(error(resource_error(journal_space), context(_, Why)))
+    ;   throw(error(journal_unwritten(Place, Why), _))
+    ).
 throw_meaning(missing(Package), Text, _) :-
     throw(error(existence_error(package, Package), context(_, Text))).
 throw_meaning(unreachable, Text, Place) :-
     throw(error(journal_unreachable(Place, Text), _)).
+
+%   write_fails(+Dir, -Why) is semidet: the driver does not report the error of
+%   the system, but a file beside the journal gets it, too, if the disk takes no
+%   writes.
+
+write_fails(Dir, Why) :-
+    directory_file_path(Dir, 'journal.try', File),
+    catch(setup_call_cleanup(open(File, write, Out),
+                             format(Out, '~` t~8192|~n', []),
+                             close(Out)),
+          error(_, context(_, Why)), true),
+    catch(delete_file(File), error(_, _), true),
+    atom(Why).
+
+is_space('No space left on device').
+is_space('Disk quota exceeded').
 
 not_opened(Place, Why) :-
     throw(error(permission_error(open, journal, Place), context(_, Why))).
@@ -276,6 +303,9 @@ prolog:error_message(journal_damaged(Dir, Why)) -->
       'Nothing in it was changed' ].
 prolog:error_message(journal_unreachable(Place, Why)) -->
     [ 'The journal ~w cannot be reached: ~w'-[Place, Why] ].
+prolog:error_message(journal_unwritten(Place, Why)) -->
+    [ 'The journal ~w cannot be written: ~w.'-[Place, Why], nl,
+      'Nothing more is committed until the process is started again' ].
 prolog:error_message(journal_version(Dir, _)) -->
     [ 'The journal ~w was written by another version of Prolog or Typhon.'-[Dir],
       nl, 'Nothing in it was changed' ].

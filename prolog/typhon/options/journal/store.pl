@@ -49,6 +49,7 @@ is stored in parts.
 :- dynamic
     connection/2,                       % Place, Connection
     opened/3,                           % Base, Sync, Stamp
+    broken/1,                           % Error: no commit until it is reopened
     long/3.                             % Kind, Key, N: has further parts
 
 format_version(1).
@@ -182,6 +183,7 @@ typhon_durable_changes:close_store :-
 forget(Connection) :-
     retractall(connection(_, _)),
     retractall(opened(_, _, _)),
+    retractall(broken(_)),
     retractall(long(_, _, _)),
     recent_end,
     sql_close,
@@ -197,7 +199,14 @@ forget(Connection) :-
 %
 %   @error resource_error(journal_space): the disk is full
 %   @error journal_damaged(Place, Why), journal_unreachable(Place, Why)
+%   @error journal_unwritten(Place, Why): of this commit, and then of each until
+%          the store is reopened.  After a failed fsync the system may drop what
+%          it did not write, and report success for the next.
 
+store_commit(_) :-
+    broken(Error),
+    !,
+    throw(Error).
 store_commit(Changes) :-
     catch(commit_new(Changes), error(journal_unreachable(_, _), _),
           ( connect_again, commit_new(Changes) )).
@@ -213,7 +222,14 @@ commit_all(Changes) :-
     catch(in_terms_of(Place, Base, commit(Changes)),
           error(Formal, Context),
           ( catch(sql_execute(rollback, []), error(_, _), true),
+            breaks(error(Formal, Context)),
             throw(error(Formal, Context)) )).
+
+breaks(Error) :-
+    (   Error = error(journal_unwritten(_, _), _)
+    ->  assertz(broken(Error))
+    ;   true
+    ).
 
 %   A server that was restarted has lost the lock of this process, and perhaps
 %   commits.  Another process may have opened the journal meanwhile.

@@ -1,4 +1,5 @@
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/failing_disk').
 :- use_module('../../../lib/stores').
 :- use_module(library(plunit)).
 :- use_module(library(filesex), [directory_file_path/3]).
@@ -162,5 +163,22 @@ full(Dir) :-
                  items(a, [k-0-first, l-0-List]) )),
     Full == resource_error(journal_space),
     Items == [k-0-first].
+
+%   Each commit is that of an item; a process reports its results as text.
+
+test(errors_of_the_disk_have_their_names,
+     [ condition(disk_can_fail),
+       forall(member(Call-Errors, [ 'write-28'-[space,none,none,[1,2,3]],
+                                    'write-122'-[space,none,none,[1,2,3]],
+                                    'fsync-5'-[unwritten,unwritten,none,_],
+                                    'write-5'-[unwritten,unwritten,none,_] ])),
+       true(Found = Errors) ]) :-
+    with_failing_disk(Environment, with_tmp_dir(disk(Call, Environment, Found))).
+
+disk(Call, Environment, Found, Dir) :-
+    project_file('test/lib/disk_main.pl', Main),
+    run_swipl(['-g', main, '-t', halt, Main, '--', Call, Dir],
+              [environment(Environment)], exit(0), Out, _),
+    term_string(Found, Out).
 
 :- end_tests(store).
