@@ -29,5 +29,5 @@ This is the interface of the layer: higher layers import from here.
 :- reexport('agent/payloads').
 :- reexport(agent/mailbox,
             [ agent_order/2, agent_ordered/1, agent_orders/2, agent_unorder/2,
-              mail_all/2, mail_back/2, mail_count/2, mail_list/2, mail_take/2,
-              mail_waits/1 ]).
+              mail_all/2, mail_back/2, mail_count/2, mail_fitting/4,
+              mail_full/2, mail_list/2, mail_take/2, mail_waits/1 ]).

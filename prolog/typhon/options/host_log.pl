@@ -4,7 +4,8 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../kernel/base/durable_changes',
               [deferred_act/4, durable_post/3, effects_deferred/0]).
-:- use_module('../kernel/base/error_text', [abridged/3, print_error/2]).
+:- use_module('../kernel/base/error_text', [abridged/3]).
+:- use_module('../kernel/base/reports', [report/4]).
 :- use_module('../kernel/wire', [endpoint_post/3, mobile_term/1]).
 :- use_module('../kernel/host',
               [ address_parts/3, event_shown/3, events_subscribe/3, host/3,
@@ -98,8 +99,8 @@ log_failed(unreachable(_), _, Endpoint) :-
     ->  print_message(warning, typhon(log_unheard(Endpoint)))
     ;   true
     ).
-log_failed(Formal, Context, _) :-
-    print_error(warning, error(Formal, Context)).
+log_failed(Formal, Context, Endpoint) :-
+    report(warning, log_errors, Endpoint, error(Formal, Context)).
 
 count_of_missed(Endpoint, Key, false) :-
     missed(Endpoint, Key),

@@ -329,7 +329,7 @@ lost_since(resource_error(backlog)) -->
        (setting typhon_backlog:messages)' ].
 lost_since(resource_error(mailbox)) -->
     !,
-    [ 'Its mailbox is full, as its host allows no more' ].
+    [ 'Its mailbox is full' ].
 lost_since(Formal) -->
     error_lines(error(Formal, _)).
 

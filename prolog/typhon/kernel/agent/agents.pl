@@ -6,7 +6,7 @@
             agent_rests/3,              % +Id, ?Status, -Goals
             agent_runs/1,               % +Id
             agent_enter/3,              % +Agent, +Status, +Goals
-            agent_remove/3,             % +Id, -Mail, -Orders
+            agent_remove/2,             % +Id, -Orders
             agent_mobile/6,             % +Id, -Host, -Module, -Hash, -Life,
                                         % -Until
             agent_move/5,               % +Id, +Host, +Module, +Life, +Until
@@ -35,7 +35,7 @@
 :- use_module('../host', [events_forget/1, parts_call/3, schedule/2]).
 :- use_module(mailbox,
               [ agent_ordered/1, agent_unorder/2, agent_unorder_all/2,
-                mail_all/2, mail_put/2, mail_wakes/3 ]).
+                mail_all/2, mail_drop/1, mail_put/2, mail_wakes/3 ]).
 :- use_module(life, [life_carried/2]).
 
 /** <module> The records of the agents in this process
@@ -144,16 +144,16 @@ agent_enter(agent(Id, Host, Module, Hash, Life), Status, Goals) :-
     parts_call(comes, Host, [Id, Host, Module, Hash]),
     life_carried(Life, Id).
 
-%!  agent_remove(+Id, -Mail:list, -Orders:list) is semidet.
+%!  agent_remove(+Id, -Orders:list) is semidet.
 %
-%   Remove the record of Id, and its module.
+%   Remove the record of Id, its mail, and its module.
 
-agent_remove(Id, Mail, Orders) :-
+agent_remove(Id, Orders) :-
     retract(record(Id, Host, Module, _, _, _)),
     retractall(agent_rests(Id, _, _)),
     parts_call(goes, Host, [Id, Host, Module]),
     durable_drop(agent, Id, 0),
-    mail_all(Id, Mail),
+    mail_drop(Id),
     agent_unorder_all(Id, Orders),
     state_destroy(Id, Module).
 

@@ -3,9 +3,12 @@
             mail_wakes/3,               % +Status, +Id, +Messages
             mail_take/2,                % +Id, ?Message
             mail_all/2,                 % +Id, -Messages
+            mail_drop/1,                % +Id
             mail_list/2,                % +Id, -Messages
             mail_waits/1,               % +Id
             mail_count/2,               % +Id, -Count
+            mail_full/2,                % +Id, +From
+            mail_fitting/4,             % +Id, +Mail, -Fitting, -Rest
             mail_back/2,                % +Id, +Messages
             agent_order/2,              % +Id, +Order
             agent_unorder/2,            % +Id, ?Order
@@ -42,6 +45,8 @@ mail_put/2 may add to a queue, and no thread waits for one.
 
 :- setting(typhon_creation:faulty_mail, nonneg, 1000,
            "Messages kept for an agent that is faulty").
+:- setting(messages, between(1000, 1 000 000 000), 100 000,
+           "Messages that wait in the mailbox of an agent").
 
 :- dynamic
     box/2,                      % Id, Queue
@@ -164,6 +169,17 @@ mail_all(Id, Messages) :-
     ;   Messages = []
     ).
 
+%!  mail_drop(+Id) is det.
+%
+%   Remove the mailbox with its messages.
+
+mail_drop(Id) :-
+    (   retract(box(Id, Queue))
+    ->  durable_drop_all(mail, Id),
+        message_queue_destroy(Queue)
+    ;   true
+    ).
+
 %!  mail_list(+Id, -Messages:list) is det.
 %
 %   All messages, the oldest first.
@@ -195,6 +211,43 @@ mail_count(Id, Count) :-
     !,
     fifo_size(Queue, Count).
 mail_count(_, 0).
+
+%!  mail_full(+Id, +From) is semidet.
+%
+%   The mailbox of Id has no space for a message of From.  It always has space
+%   for those of the platform, which are from `system`, and few.
+
+mail_full(Id, From) :-
+    mail_count(Id, Count),
+    Count >= 1000,                      % a setting costs a tenth of a message
+    setting(messages, Max),
+    Count >= Max,
+    From \== system.
+
+%!  mail_fitting(+Id, +Mail:list, -Fitting:list, -Rest:list) is det.
+%
+%   The mailbox of Id has space for Fitting, which are those of Mail, terms
+%   mail(_, From, _), that fit or are from `system`, but not for Rest.
+
+mail_fitting(Id, Mail, Fitting, Rest) :-
+    mail_count(Id, Count),
+    length(Mail, More),
+    setting(messages, Max),
+    (   Count+More =< Max
+    ->  Fitting = Mail,
+        Rest = []
+    ;   Space is max(0, Max-Count),
+        fitting(Mail, Space, Fitting, Rest)
+    ).
+
+fitting([], _, [], []).
+fitting([Mail|Mails], Space, [Mail|Fitting], Rest) :-
+    ( Space > 0 ; Mail = mail(_, system, _) ),
+    !,
+    Space1 is Space-1,
+    fitting(Mails, Space1, Fitting, Rest).
+fitting([Mail|Mails], Space, Fitting, [Mail|Rest]) :-
+    fitting(Mails, Space, Fitting, Rest).
 
 %!  mail_back(+Id, +Messages:list) is det.
 %

@@ -21,6 +21,7 @@
             commit_changes/0,
             send_after_commit/2,        % +Item, +When
             flush_sends/0,
+            commits_must_succeed/0,
             durable_post/3,             % +Endpoint, +Kind, +Term
             crash_point/1               % +Name
           ]).
@@ -71,6 +72,7 @@ inside the mutex that guards its owner.
     commit/0,                   % see commit_changes/0
     send_after_commit/2,
     flush_sends/0,
+    commit_error/1,             % Error: commits fail with it now
     durable_post/3,
     undelivered/4,              % Kind, Term, Endpoint, Formal: the post of
                                 % durable_post/3 cannot be sent
@@ -246,14 +248,27 @@ commit_changes :-
 %!  send_after_commit(+Item, +When) is det.
 %
 %   While durable_on/0 holds: pass Item to committed/1 when all earlier changes
-%   are committed, in the order of these calls.
+%   are committed, in the order of these calls.  While commits fail Item waits:
+%   no thread of the platform gets an error of the store that it has not asked
+%   for, see commits_must_succeed/0.
 %
-%   @arg When is `now` if a caller waits for it; `anyhow` if a caller waits and
-%        the error of the last commit shall not be raised; `later` if the
-%        sender soon calls flush_sends/0, or sends another item
-%   @error resource_error(_): the store is full, When is `now`, and Item is not
-%          sent
+%   @arg When is `now`, or `later` if the sender soon calls flush_sends/0, or
+%        sends another item
 %   @error existence_error(_, open): the store was closed
+
+%!  commits_must_succeed is det.
+%
+%   For callers that wait for their output, or would rather keep it until it can
+%   leave the process.
+%
+%   @error the error with which commits fail now
+
+commits_must_succeed :-
+    (   durable_on,
+        commit_error(Error)
+    ->  throw(Error)
+    ;   true
+    ).
 
 %!  flush_sends is det.
 %

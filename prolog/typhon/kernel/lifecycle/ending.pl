@@ -16,7 +16,7 @@
               [event/4, events_forget/1, host/3, host_again/1, host_leave/1]).
 :- use_module('../agent',
               [ agent/5, agent_fault/5, agent_ordered/1, agent_put/3,
-                agent_ready/2, agent_remove/3, agent_status/3, fault_error/2,
+                agent_ready/2, agent_remove/2, agent_status/3, fault_error/2,
                 fault_outcome/2, fault_shown/2, fault_stamp/2, is_faulty/3,
                 life_hops/2, result_facts/2, with_agent/2 ]).
 :- use_module('../travel',
@@ -68,7 +68,7 @@ remove(Id, Status, Goals, last(Host, Hops, Status, Goals, Results, Orders)) :-
     ),
     retractall(kept(Id)),
     agent_ends(Id, Hops),
-    agent_remove(Id, _, Orders).
+    agent_remove(Id, Orders).
 
 after_removal(Last, Id, Outcome) :-
     report_end(Last, Id, Outcome),
@@ -90,7 +90,7 @@ agent_forgotten(Id, Test) :-
     with_agent(Id, ( agent_status(Id, Status, _),
                      call(Test, Status),
                      agent(Id, Host, _, _, _),
-                     agent_remove(Id, _, Orders) )),
+                     agent_remove(Id, Orders) )),
     events_forget(Id),
     host_leave(Host),
     answer_none(Id, Orders).

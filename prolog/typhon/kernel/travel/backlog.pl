@@ -355,5 +355,5 @@ is_hopeless(host_unreachable(Endpoint), _, Tries) :-
     \+ endpoint_peer(Endpoint, process(_)),
     unknown_tries(Most),
     Tries >= Most.
-is_hopeless(resource_error(_), _, _).
+is_hopeless(resource_error(frame_bytes), _, _).
 is_hopeless(existence_error(endpoint, _), _, _).   % this process ends

@@ -14,7 +14,8 @@
 :- use_module('../agent',
               [ agent/5, image_amended/5, image_hash/2, image_held/2,
                 program_missing/2, program_sent/3, with_agent/2 ]).
-:- use_module('../base/durable_changes', [crash_point/1, durable_on/0]).
+:- use_module('../base/durable_changes',
+              [commits_must_succeed/0, crash_point/1, durable_on/0]).
 :- use_module(in_doubt, [may_have_arrived/1, resolve_in_doubt/1]).
 :- use_module(home, [agent_born/2]).
 :- use_module(hand_over, []).
@@ -135,7 +136,8 @@ send(Transfer, Image0) :-
                 program_sent(Endpoint, Hash, Program)
             ),
             (   durable_on
-            ->  hop_request(Transfer, Name, Image, Program, Request),
+            ->  commits_must_succeed,
+                hop_request(Transfer, Name, Image, Program, Request),
                 endpoint_request(Endpoint, hop, Request, answered(Transfer)),
                 crash_point(after_send)
             ;   handed(Endpoint, hop(Name, Image, Program), Transfer)

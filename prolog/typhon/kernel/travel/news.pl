@@ -169,7 +169,7 @@ typhon_runtime:ending(before) :-
 flush(Home, Deadline) :-
     with_mutex(typhon_news, take_all(Home, All)),
     All \== [],
-    posted(endpoint_post_by(Deadline), Home, All),
+    catch(posted(endpoint_post_by(Deadline), Home, All), error(_, _), fail),
     !,
     flush(Home, Deadline).
 flush(_, _).
@@ -249,10 +249,15 @@ take_in_hand(Home, All) :-
     ;   assertz(in_hand(Home, All))
     ).
 
+%   A courier ends with the process, or gives up after news_seconds: it tries
+%   again after any other error, such as that of a journal.
+
 sent(ok, Home, _, _) :-
+    !,
     with_mutex(typhon_news, after(Home, Courier)),
     start_courier(Courier, Home).
 sent(unreachable(_), Home, All, try(Since0, Pause)) :-
+    !,
     monotonic_time(Now),
     since(Since0, Now, Since),
     setting(news_seconds, Max),
@@ -260,10 +265,11 @@ sent(unreachable(_), Home, All, try(Since0, Pause)) :-
     ->  give_up(Home)
     ;   once_more(Home, All, try(Since, Pause))
     ).
-sent(resource_error(_), Home, All, Try) :-
-    once_more(Home, All, Try).          % the journal is full
 sent(existence_error(_, _), Home, _, _) :-
+    !,
     give_up(Home).                      % this process ends
+sent(_, Home, All, Try) :-
+    once_more(Home, All, Try).
 
 once_more(Home, All, try(Since, Pause)) :-
     with_mutex(typhon_news, forall(member(News, All), put_back(Home, News))),

@@ -5,7 +5,7 @@
             post_waiting/2              % +Id, -Messages
           ]).
 :- use_module(library(apply), [maplist/3]).
-:- use_module(library(error), [existence_error/2]).
+:- use_module(library(error), [existence_error/2, resource_error/1]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(pairs), [group_pairs_by_key/2]).
 :- use_module('../base/reports', [report/4]).
@@ -15,7 +15,7 @@
 :- use_module('../wire', [endpoint_address/1, mobile_term/1]).
 :- use_module('../host', [parts/3]).
 :- use_module('../agent',
-              [agent_home/2, agent_mail/2, agent_on/2, with_agent/2]).
+              [agent_home/2, agent_mail/2, agent_on/2, mail_full/2, with_agent/2]).
 :- use_module(backlog,
               [backlog/1, backlog_add/2, backlog_all/2, retry_later/3]).
 :- use_module(sender_authorization, [mail_accepted/5, senders_checked/0]).
@@ -54,6 +54,7 @@ max_forwards(12800).
 %   @error type_error(mobile_term, Culprit)
 %   @error host_unreachable(Host)
 %   @error resource_error(frame_bytes)
+%   @error resource_error(mailbox) if Id is here, and its mailbox is full
 
 post(Id, From, Message) :-
     mobile_term(Message),
@@ -92,6 +93,9 @@ post_way(Id, From, Message, Way) :-
     !,
     new_letter(From, Message, Letter),
     way(Id, Letter, Way).
+post_way(Id, From, _, _) :-
+    mail_full(Id, From),
+    resource_error(mailbox).
 post_way(Id, From, Message, done) :-
     agent_mail(Id, [From-Message]),
     !.

@@ -15,7 +15,9 @@
                 endpoint_post_up/3 ]).
 :- use_module('../host',
               [address_parts/3, amended/5, parts/3, scheduler_call/1]).
-:- use_module('../agent', [agent/5, agent_home_endpoint/2, agent_mail/2]).
+:- use_module('../agent',
+              [ agent/5, agent_home_endpoint/2, agent_mail/2,
+                mail_fitting/4 ]).
 :- use_module(home, [agent_outcome/2]).
 :- use_module(sender_authorization,
               [mail_routes/4, senders_checked/0, with_proof/5]).
@@ -59,12 +61,14 @@ letter_parts(letter(Mail, Left), Mail, Left).
 %!  way_in(+Id, +Mail) is semidet.
 %
 %   Put the part of Mail that Id, an agent of this process, accepts into its
-%   mailbox.
+%   mailbox; what its mailbox has no space for becomes dead letters.
 
 way_in(Id, Mail) :-
-    fitting(Id, Mail, Fitting),
+    fitting(Id, Mail, Accepted),
+    mail_fitting(Id, Accepted, Fitting, Rest),
     messages(Fitting, Messages),
-    agent_mail(Id, Messages).
+    agent_mail(Id, Messages),
+    ( Rest == [] -> true ; mail_lost(resource_error(mailbox), Id, Rest) ).
 
 fitting(Id, Mail, Fitting) :-
     (   parts(deliver, _, _),
@@ -245,7 +249,7 @@ report_to_origin(Origin, Formal, Id, Mail) :-
     findall(mail(Origin, From, Message),
             member(mail(Origin, From, Message), Mail), Lost),
     catch(endpoint_post(Origin, message, lost(Formal, Id, Lost)),
-          error(unreachable(_), _),
+          error(_, _),
           true).                        % it was reported here
 
 report(Formal, Id, [mail(_, From, Message)|More]) :-

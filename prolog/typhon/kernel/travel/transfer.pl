@@ -27,7 +27,7 @@
               [ address_parts/3, event/4, events_forget/1, host_hop/3,
                 host_leave/1, host_time/2, scheduler_call/1 ]).
 :- use_module('../agent',
-              [ agent/5, agent_put/3, agent_ready/2, agent_remove/3,
+              [ agent/5, agent_put/3, agent_ready/2, agent_remove/2,
                 agent_status/3, image_clone/5, image_hop/6, mail_all/2,
                 mail_back/2, with_agent/2 ]).
 :- use_module('../base/reports', [report/4]).
@@ -219,7 +219,8 @@ transfer_let_go(Id, Mail, Orders, Gone) :-
 let_go(Id, Since, Mail, Orders, typhon_transfer:gone(Id, Host, Since)) :-
     agent(Id, Host, _, _, _),
     events_forget(Id),
-    agent_remove(Id, Mail, Orders).
+    mail_all(Id, Mail),
+    agent_remove(Id, Orders).
 
 gone(Id, Host, Since) :-
     ignore(move_over(Id, answer(arrived))),

@@ -262,7 +262,7 @@ agent_resumed_from(Id, Stamp, Hops) :-
     (   endpoint_address(Home)
     ->  home_resumed(Id, Stamp, Hops)
     ;   catch(endpoint_post(Home, whereabouts, [resumed(Id, Stamp, Hops)]),
-              error(unreachable(_), _),
+              error(_, _),
               true)                     % it will get the news later
     ).
 

@@ -148,8 +148,8 @@ host_load(Count) :-
 
 %!  send(+Agent, +Message) is det.
 %
-%   As agent_send/2; the sender is this agent.  A message to an ended agent is
-%   dropped with a warning, not an error; without the warning while the host of
+%   As agent_send/2; the sender is this agent.  A message to an ended agent, or
+%   one whose mailbox is full, is dropped with a warning, not an error; without the warning while the host of
 %   this agent stops.  `user`, the sender of messages from outside, has no
 %   mailbox: messages to it are printed.
 %
@@ -181,19 +181,24 @@ send(Agent, Message) =>
     parts_call(acts, Host, [Id, send(Message)]),
     event(messages, Host, Id, sent(Agent, Message)),
     catch(post(Agent, Id, Message),
-          error(existence_error(agent, Agent), _),
-          warn_undeliverable(Host, Agent, Id, Message)).
+          error(Formal, Context),
+          not_sent(Formal, Context, Host, Agent, Id, Message)).
 
 %   On a host that stops, agents at rest end first, which running agents cannot
 %   know: messages to ended agents are dropped without a warning.
 
-warn_undeliverable(Host, _, _, _) :-
+not_sent(existence_error(agent, Agent), _, Host, Agent, _, _) :-
     host_closed(Host),
     !.
-warn_undeliverable(_, Agent, Id, Message) :-
+not_sent(Formal, _, _, Agent, Id, Message) :-
+    ( Formal = existence_error(agent, Agent)
+    ; Formal = resource_error(mailbox)
+    ),
+    !,
     report(warning, lost_messages, Agent,
-           typhon(undeliverable(existence_error(agent, Agent), Agent, Id,
-                                Message))).
+           typhon(undeliverable(Formal, Agent, Id, Message))).
+not_sent(Formal, Context, _, _, _, _) :-
+    throw(error(Formal, Context)).
 
 %!  leave(+Fact) is det.
 %

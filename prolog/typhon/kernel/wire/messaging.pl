@@ -25,6 +25,7 @@ wait, and are not for the threads of the endpoint.
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [append/3, member/2, selectchk/3, subtract/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/durable_changes', [commits_must_succeed/0]).
 :- use_module('../base/monotonic',
               [monotonic_time/1, wait_within/2]).
 :- use_module('../base/on_demand', [on_demand_load/2]).
@@ -54,6 +55,8 @@ wait, and are not for the threads of the endpoint.
 %
 %   @error unreachable(Address)
 %   @error type_error(mobile_term, Culprit)
+%   @error the error with which commits fail now, as endpoint_call/5: other
+%          output waits until they succeed
 
 endpoint_post(Address, Kind, Term) :-
     endpoint_address(Own),
@@ -67,6 +70,7 @@ endpoint_post(Address, _, _) :-
     !,
     throw(error(unreachable(Address), _)).
 endpoint_post(Address, Kind, Term) :-
+    commits_must_succeed,
     (   ready_session(Address, Session)
     ->  true
     ;   connect(Address, Session)
@@ -207,6 +211,7 @@ endpoint_hand(Address, Kind, Term, Hand) :-
 
 endpoint_call(Address, Kind, Term, Answer, Timeout) :-
     must_be(number, Timeout),
+    commits_must_succeed,
     monotonic_time(Now),
     Deadline is Now+Timeout,
     setup_call_cleanup(

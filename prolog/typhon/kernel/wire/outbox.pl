@@ -50,15 +50,17 @@ This module has the predicates that senders call; writer.pl writes.
 %   @error resource_error(frame_bytes) if Term is too long for a frame
 
 session_send(Session, Term) :-
-    send(Session, Term, now).
+    frame_bytes(Session, Term, Bytes),
+    answers_first(Session),
+    send_bytes(Session, Bytes, none).
 
 %!  session_answer(+Session, +Term) is det.
 %
-%   As session_send/2, for answers: while the store is full their callers wait,
-%   too. If the session or the store has been closed the answer is dropped.
+%   As session_send/2, for answers: if the session or the store has been closed
+%   the answer is dropped.
 
 session_answer(Session, Term) :-
-    unless_closed(send(Session, Term, anyhow)).
+    unless_closed(session_send(Session, Term)).
 
 %   A frame for a peer that is gone is of no use; after the store was closed
 %   peers must not learn of further events.
@@ -72,14 +74,9 @@ unless_closed(Goal) :-
 is_closed(session_closed).
 is_closed(existence_error(_, open)).    % the store
 
-send(Session, Term, When) :-
-    frame_bytes(Session, Term, Bytes),
-    answers_first(Session),
-    send_bytes(Session, Bytes, none, When).
-
-send_bytes(Session, Bytes, Token, When) :-
+send_bytes(Session, Bytes, Token) :-
     (   durable_on
-    ->  send_committed(Session, Bytes, Token, When)
+    ->  send_committed(Session, Bytes, Token, now)
     ;   session_locked(Session, put_frame(Session, Bytes, Token, flush))
     ).
 
@@ -101,7 +98,7 @@ session_send_with(Session, Term) :-
     ->  Token = loose
     ;   Token = none
     ),
-    send_bytes(Session, Bytes, Token, now).
+    send_bytes(Session, Bytes, Token).
 
 %!  session_hand(+Session, +Kind, +Term, -Hand) is det.
 %

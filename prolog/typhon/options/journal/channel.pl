@@ -12,7 +12,8 @@
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/wire',
               [ arrival_permitted/4, endpoint_address/1, endpoint_gone/1,
-                endpoint_peer/2, endpoint_post/3, endpoint_process/1 ]).
+                endpoint_peer/2, endpoint_post/3, endpoint_post_up/3,
+                endpoint_process/1 ]).
 :- use_module('../../kernel/host', [alarm_in/3, scheduler_call/1]).
 :- use_module(units_of_work,
               [changes_add/1, changes_must_fit/1, changes_putting/5]).
@@ -367,8 +368,10 @@ take(Kind, Term, Peer) :-
     ;   true
     ).
 
+%   Without a connection no answer is needed: posts are sent again over the next.
+
 answer(gap, _, To, Peer) :-
-    endpoint_post(Peer, channel, again(To)).
+    ignore(endpoint_post_up(Peer, channel, again(To))).
 answer(_, Key, To, Peer) :-
     (   ack_scheduled(Key)
     ->  true
@@ -380,7 +383,8 @@ answer(_, Key, To, Peer) :-
 acknowledge(Key, To, Peer) :-
     retractall(ack_scheduled(Key)),
     (   seen(Key, N)
-    ->  catch(endpoint_post(Peer, channel, had(To, N)), error(_, _), true)
+    ->  ignore(catch(endpoint_post_up(Peer, channel, had(To, N)),
+                     error(_, _), fail))
     ;   true
     ).
 

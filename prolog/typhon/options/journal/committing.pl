@@ -3,7 +3,6 @@
             queue_entry/1,              % +Changes
             queue_send/1,               % +Item
             queue_flush/0,
-            queue_error/1,              % -Error
             queue_must_keep/0,
             commit_queue/0
           ]).
@@ -40,6 +39,7 @@ must not commit.
 */
 
 :- multifile
+    typhon_durable_changes:commit_error/1,
     typhon_durable_changes:end_commits/0.
 
 :- dynamic
@@ -136,7 +136,7 @@ queue_must_keep :-
         get_flag(typhon_journal_start, Start)
     ->  existence_error(journal, open)
     ;   \+ queue(_, _, _),
-        queue_error(Error)
+        reported(Error)
     ->  throw(Error)
     ;   true
     ).
@@ -156,11 +156,8 @@ wake(How) :-
 urgency(idle, 1).
 urgency(now, 2).
 
-%!  queue_error(-Error) is semidet.
-
-queue_error(Error) :-
-    reported(Error),
-    !.
+typhon_durable_changes:commit_error(Error) :-
+    reported(Error).
 
 %   What happens after the journal was closed has not happened.
 

@@ -25,7 +25,7 @@
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/wire', [frame_fits/1]).
 :- use_module(committing,
-              [ commit_queue/0, commits_begin/0, queue_error/1, queue_flush/0,
+              [ commit_queue/0, commits_begin/0, queue_flush/0,
                 queue_entry/1, queue_must_keep/0, queue_send/1 ]).
 
 /** <module> Units of work, and effects that are deferred
@@ -256,7 +256,6 @@ typhon_durable_changes:commit :-
 
 typhon_durable_changes:send_after_commit(Item, When) :-
     enqueue,
-    may_wait(When),
     (   queue_send(Item)
     ->  true
     ;   existence_error(journal, open)
@@ -265,12 +264,6 @@ typhon_durable_changes:send_after_commit(Item, When) :-
     ->  true
     ;   queue_flush
     ).
-
-may_wait(now) :-
-    queue_error(Error),
-    !,
-    throw(Error).
-may_wait(_).
 
 typhon_durable_changes:flush_sends :-
     queue_flush.

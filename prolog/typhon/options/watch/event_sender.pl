@@ -99,8 +99,15 @@ handle_message(end(ReplyTo), To, _) :-
 is_there(to(Peer, Id, _, _)) :-
     setting(patience, Seconds),
     catch(endpoint_call(Peer, watched, alive(Id), answer(Answer), Seconds),
-          error(_, _), fail),
-    Answer == yes.
+          error(Formal, _), \+ is_gone(Formal)),
+    ( nonvar(Formal) -> true ; Answer == yes ).
+
+%   Any other error, such as that of a journal, does not end the watch.
+
+is_gone(unreachable(_)).
+is_gone(connection_lost(_)).
+is_gone(timeout_error(_, _)).
+is_gone(existence_error(_, _)).
 
 send_batches(To) :-
     To = to(_, _, _, Buffer),
@@ -145,7 +152,7 @@ hand_over(Events, To) :-
 
 handed_over(true, _, To) =>
     await(To, answer(more)).
-handed_over(resource_error(_), Events, To) =>
+handed_over(resource_error(frame_bytes), Events, To) =>
     hand_over_parts(Events, To).
 handed_over(type_error(_, _), Events, To) =>
     hand_over_parts(Events, To).
