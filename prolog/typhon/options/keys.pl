@@ -24,7 +24,7 @@
 :- autoload(library(readutil), [read_file_to_string/3]).
 :- use_module(library(settings), [setting/4]).
 :- use_module('../kernel/base/on_demand', [on_demand_load/2]).
-:- use_module('../kernel/base/bounds', [bounded/2]).
+:- use_module('../kernel/base/bounds', [bounded/3]).
 
 /** <module> Keys: signatures, sealed texts and certificates
 
@@ -302,8 +302,8 @@ key_found(Pem, Stamp, Find, Found) :-
 
 remember(Hash, Pem, Stamp, Found) :-
     retractall(found(Hash, Pem, _, _)),
-    assertz(found(Hash, Pem, Stamp, Found)),
-    bounded(found(_, _, _, _), typhon_keys:certificates).
+    bounded(found(_, _, _, _), typhon_keys:certificates,
+            assertz(found(Hash, Pem, Stamp, Found))).
 
 %   pem_certificate(+Pem, -Certificate) is semidet: fails if Pem is invalid.
 

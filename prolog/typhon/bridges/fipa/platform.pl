@@ -12,7 +12,7 @@
 :- use_module(library(error), [existence_error/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/4]).
-:- use_module('../../kernel/base/bounds', [bounded/2]).
+:- use_module('../../kernel/base/bounds', [bounded/3]).
 :- use_module(sexp, [aid_addresses/2, aid_name/2]).
 
 /** <module> Platforms of FIPA: names, addresses and counts
@@ -113,9 +113,9 @@ platform_met(Name, Addresses) :-
 
 meet(Name, Addresses) :-
     findall(Ref, clause(met(Name, _), true, Ref), Refs),
-    assertz(met(Name, Addresses)),
-    forall(member(Ref, Refs), erase(Ref)),
-    bounded(met(_, _), typhon_fipa_platform:met).
+    bounded(met(_, _), typhon_fipa_platform:met,
+            assertz(met(Name, Addresses))),
+    forall(member(Ref, Refs), catch(erase(Ref), error(_, _), true)).
 
 platform_way(Aid, Addresses) :-
     aid_name(Aid, Name),

@@ -9,7 +9,7 @@
 :- use_module(library(error), [permission_error/3, resource_error/1]).
 :- use_module(library(lists), [append/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../../kernel/base/bounds', [bounded/2]).
+:- use_module('../../kernel/base/bounds', [bounded/3]).
 :- use_module(connection, [way_send/2]).
 
 /** <module> Advertisements and subscriptions of a host in ROS
@@ -112,8 +112,8 @@ end(Host, Key, Op) :-
     retract(registration(Host, Key, Op)),
     !,
     retractall(ended(Host, Key, _)),
-    assertz(ended(Host, Key, Op)),
-    bounded(ended(_, _, _), typhon_ros_advertisements:most).
+    bounded(ended(_, _, _), typhon_ros_advertisements:most,
+            assertz(ended(Host, Key, Op))).
 
 registration_renew(Host, Key, Op) :-
     ended(Host, Key, Op),

@@ -16,7 +16,7 @@
 :- use_module(library(error), [type_error/2]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(settings), [setting/4]).
-:- use_module('../base/bounds', [bounded/2]).
+:- use_module('../base/bounds', [bounded/3]).
 :- use_module('../base/durable_changes', [durable_key/2, durable_on/0]).
 :- use_module('../program', [code_sent/2]).
 :- use_module('../wire', []).
@@ -212,8 +212,8 @@ program_sent(Endpoint, Hash, known) :-
     !.
 program_sent(Endpoint, Hash, Sent) :-
     code_sent(Hash, Sent),
-    assertz(has_program(Endpoint, Hash)),
-    bounded(has_program(_, _), typhon_image:sent_programs).
+    bounded(has_program(_, _), typhon_image:sent_programs,
+            assertz(has_program(Endpoint, Hash))).
 
 %!  program_missing(+Endpoint, +Hash) is det.
 %

@@ -218,7 +218,8 @@ mail_count(_, 0).
 %   for those of the platform, which are from `system`, and few.
 
 mail_full(Id, From) :-
-    mail_count(Id, Count),
+    box(Id, Queue),
+    message_queue_property(Queue, size(Count)),
     Count >= 1000,                      % a setting costs a tenth of a message
     setting(messages, Max),
     Count >= Max,

@@ -2,7 +2,7 @@
           [ memory_short/0,
             memory_short/1,             % +Count
             space_used_up/1,            % +Module
-            bounded/2                   % :Fact, +Setting
+            bounded/3                   % :Fact, +Setting, :Add
           ]).
 :- use_module(library(lists), [member/2, sum_list/2]).
 :- use_module(library(settings), [setting/2]).
@@ -110,30 +110,26 @@ free_pages(Bytes) :-
                 *           BOUNDED            *
                 *******************************/
 
-:- meta_predicate bounded(0, +).
+:- meta_predicate bounded(0, +, 0).
 
 :- multifile forgotten/1.               % Fact: it was deleted
 
-%!  bounded(:Fact, +Setting) is det.
+%!  bounded(:Fact, +Setting, :Add) is det.
 %
-%   Call this after each assertz of a fact.  Each hundredth call deletes the
-%   oldest facts that match Fact, until at most as many remain as the setting
-%   Setting, module:name, allows.  The counter needs no lock: if two threads
-%   count at once, one call more or less makes no difference.
+%   Call Add, which adds a fact that matches Fact, after the oldest of them were
+%   deleted, so that there are never more than the setting Setting, module:name,
+%   allows.  The mutex is that of the table.
 
-bounded(Fact, Setting) :-
+bounded(Fact, Setting, Add) :-
     Setting = Module:Name,
-    atomic_list_concat([Module, Name], :, Key),
-    get_flag(Key, N),
-    Next is N+1,
-    set_flag(Key, Next),
-    (   N mod 100 =:= 0
-    ->  setting(Setting, Max),
-        predicate_property(Fact, number_of_clauses(Count)),
-        Excess is Count-Max,
-        forall(between(1, Excess, _), forget(Fact))
-    ;   true
-    ).
+    atomic_list_concat([Module, Name], :, Mutex),
+    setting(Setting, Max),
+    with_mutex(Mutex, ( make_room(Fact, Max), call(Add) )).
+
+make_room(Fact, Max) :-
+    predicate_property(Fact, number_of_clauses(Count)),
+    Excess is Count-Max+1,
+    forall(between(1, Excess, _), forget(Fact)).
 
 %   Report the fact to modules that have related data.
 

@@ -15,7 +15,7 @@
 :- use_module('../base/monotonic', [monotonic_time/1, wait_before/2]).
 :- use_module('../base/on_demand',
               [on_demand_later/1, on_demand_load/2, on_demand_part/2]).
-:- use_module('../base/bounds', [bounded/2]).
+:- use_module('../base/bounds', [bounded/3]).
 :- use_module('../base/error_text', [harmless_error/2]).
 :- use_module('../wire', [endpoint_address/1, endpoint_reply/2]).
 :- use_module('../host',
@@ -267,8 +267,7 @@ typhon_names:known(agent, Id) :-
 %   Record Id, which this process has created in another process.
 
 agent_met(Id) :-
-    assertz(met(Id, alive)),
-    bounded(met(_, _), typhon_questions:met).
+    bounded(met(_, _), typhon_questions:met, assertz(met(Id, alive))).
 
 %!  agent_named(+Agent, -Id) is det.
 %

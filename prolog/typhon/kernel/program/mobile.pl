@@ -14,7 +14,7 @@
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(pairs), [group_pairs_by_key/2, transpose_pairs/2]).
 :- use_module(library(settings), [setting/4]).
-:- use_module('../base/bounds', [bounded/2]).
+:- use_module('../base/bounds', [bounded/3]).
 :- use_module(bodies, [control/1]).
 :- use_module(libraries, [declared_meta/3]).
 
@@ -298,8 +298,8 @@ meta(PI, Meta) :-
     (   meta_known(PI, Meta0)
     ->  true
     ;   find_meta(PI, Meta0),
-        assertz(meta_known(PI, Meta0)),
-        bounded(meta_known(_, _), typhon_mobile:known)
+        bounded(meta_known(_, _), typhon_mobile:known,
+                assertz(meta_known(PI, Meta0)))
     ),
     Meta0 \== none,
     Meta = Meta0.

@@ -16,7 +16,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/4]).
-:- use_module('../base/bounds', [bounded/2]).
+:- use_module('../base/bounds', [bounded/3]).
 :- use_module('../base/durable', [durable/5, durable/6, durable_assertz/1]).
 :- use_module('../base/durable_changes',
               [durable_drop/3, durable_drop_all/2, durable_put/4]).
@@ -218,8 +218,8 @@ ended(Id, Outcome0, Hops, Results, Askers) :-
     ;   Outcome = Outcome0
     ),
     ( Results == [] -> true ; results_keep(Id, Results) ),
-    durable_assertz(outcome(Id, Outcome, Hops)),
-    bounded(outcome(_, _, _), typhon_whereabouts:outcomes),
+    bounded(outcome(_, _, _), typhon_whereabouts:outcomes,
+            durable_assertz(outcome(Id, Outcome, Hops))),
     waiters(Id, Askers).
 
 %   An agent that is disposed of while faulty ends with the outcome of its

@@ -7,7 +7,7 @@
           ]).
 :- use_module(library(lists), [list_to_set/2, member/2]).
 :- use_module(library(settings), [setting/4]).
-:- use_module('../base/bounds', [bounded/2]).
+:- use_module('../base/bounds', [bounded/3]).
 :- use_module('../base/durable',
               [ durable/5, durable/6, durable_assertz/1,
                 durable_retractall/1 ]).
@@ -56,8 +56,8 @@ typhon_identity:id_anew(Id) :-
 
 results_keep(Id, Items) :-
     forall(member(Item, Items),
-           ( durable_assertz(left(Id, Item)),
-             bounded(left(_, _), typhon_outcomes:results) )).
+           bounded(left(_, _), typhon_outcomes:results,
+                   durable_assertz(left(Id, Item)))).
 
 %!  results_ask(+Where, +Id, +Kind, -Items:list) is det.
 %
@@ -85,8 +85,8 @@ typhon_bounds:forgotten(clone_of(_, Clone)) :-
 %   Record Clone, a clone of Parent, which is here.
 
 clone_born(Parent, Clone) :-
-    durable_assertz(clone_of(Parent, Clone)),
-    bounded(clone_of(_, _), typhon_outcomes:clones),
+    bounded(clone_of(_, _), typhon_outcomes:clones,
+            durable_assertz(clone_of(Parent, Clone))),
     (   endpoint_address(Endpoint),
         agent(Parent, _, Module, _, _)
     ->  cloned_put(Module, Endpoint)

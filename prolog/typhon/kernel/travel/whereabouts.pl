@@ -19,7 +19,7 @@
 :- use_module(library(apply), [include/3, maplist/2]).
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(settings), [setting/4]).
-:- use_module('../base/bounds', [bounded/2]).
+:- use_module('../base/bounds', [bounded/3]).
 :- use_module('../base/durable', [durable/6]).
 :- use_module('../base/durable_changes',
               [durable_drop/3, durable_on/0, durable_put/4]).
@@ -189,8 +189,9 @@ forward_restore(Id, Address, Hops, Process) :-
     ).
 
 remember_forward(Id, Address, Hops, Process) :-
-    with_mutex(typhon_forward, put_forward(Id, Address, Hops, Process)),
-    bounded(forward(_, _, _, _), typhon_whereabouts:forwards).
+    bounded(forward(_, _, _, _), typhon_whereabouts:forwards,
+            with_mutex(typhon_forward,
+                       put_forward(Id, Address, Hops, Process))).
 
 put_forward(Id, Address, Hops, Process) :-
     forward(Id, _, _, _),
@@ -208,8 +209,8 @@ put_forward(Id, Address, Hops, Process) :-
 agent_ends(_, 0) :-
     !.                                  % it has no sender
 agent_ends(Id, Hops) :-
-    assertz(ended_here(Id, Hops)),
-    bounded(ended_here(_, _), typhon_whereabouts:endings).
+    bounded(ended_here(_, _), typhon_whereabouts:endings,
+            assertz(ended_here(Id, Hops))).
 
 %!  ended_agent(?Id) is nondet.
 %

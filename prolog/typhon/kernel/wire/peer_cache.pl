@@ -25,7 +25,7 @@ error is recorded. The number of addresses is bounded, the oldest are discarded.
 
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../base/bounds', [bounded/2]).
+:- use_module('../base/bounds', [bounded/3]).
 :- use_module('../base/durable', [durable/5]).
 :- use_module('../base/durable_changes', [durable_drop/3, durable_put/4]).
 :- use_module(session,
@@ -68,8 +68,8 @@ peer_gone(Address) :-
 peer_missed(Address, Formal) :-
     with_mutex(typhon_peer_cache,
                ( retractall(missed(Address, _)),
-                 assertz(missed(Address, Formal)),
-                 bounded(missed(_, _), typhon_peer_cache:contacts) )).
+                 bounded(missed(_, _), typhon_peer_cache:contacts,
+                         assertz(missed(Address, Formal))) )).
 
 %!  peer_expected(+Address) is semidet.
 %

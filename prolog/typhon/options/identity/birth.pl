@@ -8,7 +8,7 @@
 :- use_module(library(error), [permission_error/3]).
 :- use_module(library(lists), [append/3, sum_list/2]).
 :- use_module(library(settings), [setting/4]).
-:- use_module('../../kernel/base/bounds', [bounded/2]).
+:- use_module('../../kernel/base/bounds', [bounded/3]).
 :- use_module('../keys', [keys_sign/3, keys_verify/4, own_keys/1]).
 :- use_module('../../kernel/base/durable', [durable/6]).
 :- use_module('../../kernel/base/durable_changes',
@@ -126,8 +126,8 @@ note_has(_, unknown) :-
 note_has(Id, Proof) :-
     with_mutex(typhon_birth,
                ( retractall(has(Id, Proof)),
-                 assertz(has(Id, Proof)),
-                 bounded(has(_, _), typhon_birth:births) )).
+                 bounded(has(_, _), typhon_birth:births,
+                         assertz(has(Id, Proof))) )).
 
 %   The process at Endpoint lacks the birth of Id, although it was recorded to
 %   have it.
@@ -156,8 +156,8 @@ remember(Id, Birth) :-
     durable_put(birth, Id, 0, Birth),
     with_mutex(typhon_birth,
                ( retractall(known(Id, _)),
-                 assertz(known(Id, Birth)),
-                 bounded(known(_, _), typhon_birth:births) )).
+                 bounded(known(_, _), typhon_birth:births,
+                         assertz(known(Id, Birth))) )).
 
 %   Births of agents in this process are kept: other processes need not have
 %   them.

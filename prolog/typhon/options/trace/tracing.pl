@@ -13,7 +13,7 @@
               [domain_error/2, existence_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/4]).
-:- use_module('../../kernel/base/bounds', [bounded/2]).
+:- use_module('../../kernel/base/bounds', [bounded/3]).
 :- use_module('../../kernel/program', [code_names/2, code_program/2]).
 :- use_module('../../kernel/wire',
               [endpoint_address/1, endpoint_reply/2, endpoint_request/4]).
@@ -71,8 +71,7 @@ agent_trace(Agent, What) :-
 expect_events(Id) :-
     (   expected(Id)
     ->  true
-    ;   assertz(expected(Id)),
-        bounded(expected(_), typhon_tracing:traced)
+    ;   bounded(expected(_), typhon_tracing:traced, assertz(expected(Id)))
     ).
 
 must_be_kind(Kind) :-

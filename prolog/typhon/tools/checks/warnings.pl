@@ -8,7 +8,7 @@
 :- use_module(library(lists),
               [append/2, append/3, last/2, member/2, memberchk/2]).
 :- autoload(library(solution_sequences), [distinct/2]).
-:- use_module('../../kernel/base/bounds', [bounded/2]).
+:- use_module('../../kernel/base/bounds', [bounded/3]).
 :- use_module('../../kernel/base/names', [names_near/3]).
 :- use_module('../../kernel/program',
               [ advice_text/2, body_calls/2, built_in/1, clause_parts/3,
@@ -220,8 +220,8 @@ is_new(Key, _, _, _) :-
     fail.
 is_new(Key, Sources, Hash, Unknown) :-
     retractall(warned(Key, _, _, _)),
-    assertz(warned(Key, Sources, Hash, Unknown)),
-    bounded(warned(_, _, _, _), typhon_loaded:files).
+    bounded(warned(_, _, _, _), typhon_loaded:files,
+            assertz(warned(Key, Sources, Hash, Unknown))).
 
 %!  print_problem(+Severity, +Problem) is det.
 %
