@@ -123,11 +123,11 @@ device(At, Dir) :-
 reached_as_it_goes(A, Answer) :-
     thread_self(Me),
     setup_call_cleanup(
-        wrap_predicate(typhon_agents:agent_remove(Id, _, _), asked, Removed,
+        wrap_predicate(typhon_agents:agent_remove(Id, _), asked, Removed,
                        ( Removed, test_within:reached_now(Id, Me) )),
         ( agent_dispose(A),
           thread_get_message(Me, said(Answer), [timeout(30)]) ),
-        unwrap_predicate(typhon_agents:agent_remove/3, asked)).
+        unwrap_predicate(typhon_agents:agent_remove/2, asked)).
 
 :- public reached_now/2.
 
