@@ -13,6 +13,7 @@
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2, memberchk/2, nth1/3]).
 :- use_module('../base/names', [names_near/3]).
+:- use_module(dict_calls, [dict_calls/2]).
 :- use_module(libraries,
               [import_operators/2, library_import/2, with_scratch_module/2]).
 :- use_module(paths, [files_beside/3, included_file/3, program_file/2]).
@@ -23,7 +24,7 @@ Agent programs and payloads are read here, from a file or from a list of terms,
 into pairs Term-Location.  A location is `File:Line`, or clause(N) for the N-th
 term of a list.  Reading never runs anything in the file: directives are terms
 like the others, and only `:- include(F)` is followed.  Grammar rules are
-translated.  Operators that the file declares, or imports from libraries, are
+translated, and terms Map.key become calls.  Operators that the file declares, or imports from libraries, are
 known from there on, in this file alone.  A first line `#!` is skipped.
 
 A term that cannot be read, or looks like a typing error, is a problem as in
@@ -203,10 +204,13 @@ grammar_rule(Term0, Location, Item) :-
     nonvar(Term0),
     Term0 = (_-->_),
     !,
-    catch(( dcg_translate_rule(Term0, Term), Item = term(Term, Location) ),
+    catch(( dcg_translate_rule(Term0, Term1),
+            dict_calls(Term1, Term),
+            Item = term(Term, Location) ),
           error(Formal, _),
           Item = error(problem(Formal, Location, grammar))).
-grammar_rule(Term, Location, term(Term, Location)).
+grammar_rule(Term0, Location, term(Term, Location)) :-
+    dict_calls(Term0, Term).
 
 term_operators((:- Directive), Module) :-
     library_import(Directive, Import),
