@@ -45,8 +45,10 @@ option_words(trace,    [trace, traces, traced, tracing, spying, stepping]).
 kernel_file(File) :-
     layer_module(File, Layer, _),
     sub_atom(Layer, 0, _, _, 'kernel/'),
-    \+ index_file(File),                % these two name them all: one is made,
-    \+ kinds_file(File).                % the other declares what may arrive
+    \+ index_file(File),                % these name them all: one is made, one
+    \+ kinds_file(File),                % declares what may arrive, and one has
+    file_base_name(File, Base),         % names of Prolog's predicates
+    Base \== 'thread_state.pl'.
 
 %!  seam_problem(-Problem) is nondet.
 

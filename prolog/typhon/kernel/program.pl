@@ -24,7 +24,8 @@ This is the interface of the layer: higher layers import from here.
               code_unwrapped/3, code_wrapped/3, sent_program/2 ]).
 :- reexport('program/mobile').
 :- reexport(program/machine,
-            [ answer_at/3, machine_inside/0, machine_ready/1, machine_run/3 ]).
+            [answer_at/3, machine_ready/1, machine_run/3]).
+:- reexport(program/thread_state, [library_hook/0, machine_inside/0]).
 :- reexport(program/faults, [fault/3, fault_note/1, fault_noted/1]).
 :- reexport(program/bodies,
             [body_goals/4, control/1, goals_body/2]).

@@ -223,6 +223,9 @@ prolog:message(typhon(not_let_in(Where, Formal))) -->
 prolog:message(typhon(over_limit(Agent, What))) -->
     [ 'Agent ~w is ended: it has used more ~w than its host allows'-
       [Agent, What] ].
+prolog:message(typhon(aborted(Agent))) -->
+    [ 'Agent ~w is ended: its goal was aborted, by abort/0 in it, by the \c
+       debugger, or by a signal'-[Agent] ].
 prolog:message(typhon(exhausted(Agent, What))) -->
     [ 'Agent ~w is ended: it has raised ~p'-[Agent, resource_error(What)] ].
 prolog:message(typhon(runs_on(Agent, Seconds))) -->

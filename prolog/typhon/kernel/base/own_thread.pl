@@ -4,7 +4,8 @@
             own_thread_stop/0,
             stop_steps/1,                       % :Steps
             stop_thread/1,                      % +Thread
-            abort_quietly/0
+            abort_quietly/0,
+            aborted_quietly/0
           ]).
 
 /** <module> How modules and threads are stopped
@@ -187,6 +188,7 @@ interrupt(Tries, Thread) :-
 %   raises it.
 
 abort_quietly :-
+    nb_setval(typhon_aborted, true),
     current_prolog_flag(version, Version),
     (   Version < 90300
     ->  throw('$aborted')
@@ -194,3 +196,11 @@ abort_quietly :-
     ->  throw(unwind(abort))
     ;   abort
     ).
+
+%!  aborted_quietly is semidet.
+%
+%   abort_quietly/0 has aborted what this thread did; true once.
+
+aborted_quietly :-
+    nb_current(typhon_aborted, true),
+    nb_setval(typhon_aborted, false).

@@ -18,13 +18,15 @@
 :- use_module('../base/durable_changes',
               [ deferred_drop/3, durable_drop/3, durable_drop_all/2,
                 durable_on/0, durable_put/4 ]).
-:- use_module('../program', [clause_parts/3, indicator_in/2]).
+:- use_module('../program', [clause_parts/3, indicator_in/2, library_hook/0]).
 
 /** <module> Places: what a host offers to the agents on it
 
 The place of a host is a module: the facts, services, delivered payloads
 and robot interface of the host.  Agents on the host find its
 predicates through the import chain agent, place, vocabulary, system.
+
+A file may declare constraints of library(chr).
 
 make/0 reloads files that have changed since they were consulted into a place.
 Agents on the host use the new clauses from their next call on.
@@ -39,7 +41,8 @@ guarded agents, which see nothing else of the place, by directives
 
 :- multifile
     serves/2,                   % Place, PI: Place offers PI from now on
-    prolog:make_hook/2.
+    prolog:make_hook/2,
+    user:exception/3.
 
 :- dynamic
     place_host/2,               % Place, Host
@@ -66,7 +69,8 @@ place_create(Host, Files, Services, Place) :-
     ),
     Place:import(typhon_place:service/1),
     catch(( forall(member(Service, Services), place_offer(Place, Service)),
-            forall(member(File, Files), consult_into(Place, File))
+            forall(member(File, Files), consult_into(Place, File)),
+            library_hook
           ),
           Ball,
           ( place_destroy(Place), throw(Ball) )).
@@ -124,7 +128,8 @@ load(Place, Id, File) :-
           assertz(loaded(Place, Id, File, Time)),
           load_files(Place:Id, [stream(In), silent(true)])
         ),
-        close(In)).
+        close(In)),
+    stores(Place).
 
 %   make/0 itself reloads files that consulted files load.
 
@@ -150,6 +155,32 @@ reload(Place, Id, File) :-
     catch(load(Place, Id, File), error(Formal, Context),
           print_error(error, error(Formal, Context))),
     print_message(informational, typhon(place_reloaded(Place, File))).
+
+%   Library(chr) prepares the constraint stores of a module that is temporary
+%   only in the thread that loads it.
+
+stores(Place) :-
+    (   '$get_predicate_attribute'(Place:'$chr_initialization', defined, 1),
+        \+ clause(user:exception(undefined_global_variable, _, _),
+                  typhon_place:store_made(_))
+    ->  assertz((user:exception(undefined_global_variable, Name, retry) :-
+                     typhon_place:store_made(Name)))
+    ;   true
+    ).
+
+store_made(Name) :-
+    has_store(Place, Name),
+    Place:'$chr_initialization',
+    nb_current(Name, _).
+
+:- public store_made/1.
+
+has_store(Place, Name) :-
+    sub_atom(Name, 0, _, _, '$chr_'),
+    loaded(Place, _, _, _),
+    atom_concat(Place, '____', Infix),
+    once(sub_atom(Name, _, _, _, Infix)),
+    '$get_predicate_attribute'(Place:'$chr_initialization', defined, 1).
 
 %!  place_host(?Place, ?Host) is nondet.
 

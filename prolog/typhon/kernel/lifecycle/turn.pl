@@ -5,6 +5,7 @@
             turn_over_limit/3           % +Host, +Id, +What
           ]).
 :- use_module('../base/durable_changes', [unit_of_work/1]).
+:- use_module('../base/own_thread', [aborted_quietly/0]).
 :- use_module('../base/reports', [report/4]).
 :- use_module('../program',
               [ answer_at/3, fault_note/1, machine_ready/1, machine_run/3,
@@ -281,10 +282,19 @@ go_on(elsewhere(Goals), Id) :-
 
 broken_off(Ball, Id) :-
     sig_atomic(( context_clear,
+                 report_aborted(Id),
                  turn_broken(Outcome),
                  over_limit(Id, Outcome),
                  concluded(Id, Outcome, ignore(agent_end(Id, Outcome))) )),
     throw(Ball).
+
+%   The platform interrupts agents by abort_quietly/0; halt/1 aborts threads.
+
+report_aborted(Id) :-
+    (   ( aborted_quietly ; current_prolog_flag(exit_status, _) )
+    ->  true
+    ;   report(warning, agents_aborted, Id, typhon(aborted(Id)))
+    ).
 
 over_limit(Id, raised(error(resource_error(What), _))) :-
     agent(Id, Host, _, _, _),

@@ -17,11 +17,13 @@
             native_body/4,              % +Body0, +Module, +Own, -Body
             code_clear/0
           ]).
-:- use_module(library(apply), [include/3, maplist/2, maplist/3]).
+:- use_module(library(apply),
+              [include/3, maplist/2, maplist/3, maplist/4]).
 :- use_module(library(assoc), [get_assoc/3, list_to_assoc/2]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(error), [domain_error/2, permission_error/3]).
-:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(error), [domain_error/2]).
+:- use_module(library(lists), [append/3, member/2, memberchk/2]).
+:- use_module(library(occurs), [sub_term/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(bodies, [body_goals/4, named/4]).
 :- use_module(libraries, [import_library/2, is_import/1]).
@@ -29,6 +31,7 @@
 :- use_module(places, [clauses_names/2, is_places/1]).
 :- use_module(programs, [program_hash/2]).
 :- use_module(source, [clause_parts/3]).
+:- use_module(thread_state, [is_confined/1, library_hook/0, program_base/1]).
 
 /** <module> Programs installed in this process
 
@@ -241,6 +244,7 @@ code_module(Hash, Module) :-
     ;   code_program(Hash, program(_, _, Libraries, _)),
         forall(member(Library-_, Libraries),
                import_library(typhon_code, Library-[])),
+        library_hook,
         with_mutex(typhon_code, compile(Hash, Module))
     ).
 
@@ -315,8 +319,8 @@ retire(Hash) :-
 
 fill(Module, program(_, State, Libraries, Clauses), Kinds) :-
     set_module(Module:class(temporary)),
-    set_module(Module:base(system)),
-    no_system_sleep(Module),
+    program_base(Base),
+    set_module(Module:base(Base)),
     maplist(import_library(Module), Libraries),
     findall(PI-state, member(PI, State), StateKinds),
     append(Kinds, StateKinds, OwnKinds),
@@ -326,19 +330,6 @@ fill(Module, program(_, State, Libraries, Clauses), Kinds) :-
     maplist(add_clause(Module, Own), Clauses),
     findall(PI, member(PI-_, Kinds), PIs),
     compile_predicates(Module:PIs).
-
-%   The system defines sleep/1, too.  A native goal of an agent must not find
-%   it: it would occupy the thread.
-
-no_system_sleep(Module) :-
-    redefine_system_predicate(Module:sleep(_)),
-    Module:import(typhon_code:sleep/1).
-
-:- public sleep/1.
-:- redefine_system_predicate(sleep(_)).
-
-sleep(_) :-
-    permission_error(call, control_predicate, sleep/1).
 
 %   The flag protect_static_code forbids clause/2, unless it is allowed before
 %   the predicate is declared.
@@ -401,7 +392,8 @@ native_body(Body0, Module, Own, Body) :-
 native_body(_:Goal, _, _, call(Goal)) :-
     var(Goal),
     !.
-native_body(Goal, Module, Own, Body) :-
+native_body(Goal0, Module, Own, Body) :-
+    unbound_inside(Goal0, Goal),
     (   bound_here(Goal, Module, Own)
     ->  Body = Goal
     ;   Body = call(Goal)
@@ -417,12 +409,50 @@ construct((A0*->B0), [A0,B0], [A,B], (A*->B)).
 construct(\+A0, [A0], [A], \+A).
 construct(!, [], [], !).
 
+%   unbound_inside(+Goal0, -Goal): at run time conjunctions in arguments would be
+%   compiled with ISO predicates of the system.
+
+unbound_inside(Goal0, Goal) :-
+    callable(Goal0),
+    '$get_predicate_attribute'(system:Goal0, meta_predicate, Meta),
+    sub_term(Sub, Goal0),
+    callable(Sub),
+    is_confined(Sub),
+    !,
+    Goal0 =.. [Name|Args0],
+    Meta =.. [_|Specs],
+    maplist(unbound_part, Specs, Args0, Args),
+    Goal =.. [Name|Args].
+unbound_inside(Goal, Goal).
+
+unbound_part(Spec, Body0, Body) :-
+    (   memberchk(Spec, [0,^])
+    ->  unbound(Body0, Body)
+    ;   Body = Body0
+    ).
+
+unbound(Body0, Body) :-
+    nonvar(Body0),
+    construct(Body0, Args0, Args, Body),
+    !,
+    maplist(unbound, Args0, Args).
+unbound(Goal, call(Goal)) :-
+    callable(Goal),
+    is_confined(Goal),
+    !.
+unbound(Goal0, Goal) :-
+    unbound_inside(Goal0, Goal).
+
 bound_here(_:_, _, _).
 bound_here(Goal, _, Own) :-
     functor(Goal, Name, Arity),
     get_assoc(Name/Arity, Own, Kind),
     !,
     Kind \== state.                     % even if a library defines it as well
+bound_here(Goal, _, _) :-
+    is_confined(Goal),
+    !,
+    fail.
 bound_here(Goal, _, _) :-               % goals that could be autoloaded are not
     '$get_predicate_attribute'(system:Goal, system, 1).
 bound_here(Goal, Module, _) :-

@@ -2,7 +2,6 @@
           [ machine_run/3,              % +Context, +Goals, -Outcome
             answer_at/3,                % +Control, +Answer, -Goal
             machine_ready/1,            % +Context
-            machine_inside/0,
             ruled/2,                    % +Heads, +Context
             handed/6                    % +Place, +Vars, +Goals, +Context,
                                         % +Base, -Out
@@ -15,6 +14,7 @@
                 plain_goals/2 ]).
 :- use_module(chunks, [chunks_ready/1]).
 :- use_module(faults, [fails/2, fails_inside/2]).
+:- use_module(thread_state, [step_ended/1]).
 
 /** <module> The machine: agents that can stop in the middle of a clause
 
@@ -67,6 +67,7 @@ Two threads must not run the same agent.
 
 machine_run(Context, Goals, Outcome) :-
     catch(first_outcome(Goals, Context, Outcome), Ball, Raised = true),
+    step_ended(Context),
     (   Raised == true                  % no last call: the frame stays
     ->  raised(Ball, Outcome)
     ;   true
@@ -116,14 +117,6 @@ outcome(effect(Control, Hole, [First|Goals0]), Outcome) :-
     goals_without(Goals0, cuts, Goals).
 outcome(effect(Control, Hole, Goals0), effect(Control, Hole, Goals)) :-
     goals_without(Goals0, cuts, Goals).
-
-%!  machine_inside is semidet.
-%
-%   This thread is inside machine_run/3; for signals.
-
-machine_inside :-
-    prolog_current_frame(Frame),
-    prolog_frame_attribute(Frame, parent_goal, first_outcome(_, _, _)).
 
                 /*******************************
                 *           THE RUN            *

@@ -158,6 +158,7 @@ declared_allowed(PI) :-
 
 %   The platform keeps these facts in the state; no agent can name them.
 
+of_platform('$global'(_, _)).
 of_platform('$legacy'(_)).
 of_platform('$memory'(_)).
 of_platform('$owner'(_)).

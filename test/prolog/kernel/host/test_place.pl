@@ -107,3 +107,39 @@ program(Dir, Age, Version, File) :-
     write_place(Dir, 'program.pl', Age, Text, File).
 
 :- end_tests(place_make).
+
+:- begin_tests(place_constraints).
+
+test(constraints_last_until_the_agent_stops, Counts == [1,0,1,0]) :-
+    with_tmp_dir(constraints(Counts)).
+
+constraints(Counts, Dir) :-
+    write_place(Dir, 'leq.pl', 100,
+                ':- use_module(library(chr)).\n\c
+                 :- chr_constraint leq(?any,?any).\n\c
+                 leq(X,Y), leq(Y,X) <=> X = Y.\n\c
+                 leq(X,Y), leq(Y,Z) ==> leq(X,Z).\n\c
+                 stored(N) :- findall(x, \'$enumerate_constraints\'(_), L),\n\c
+                              length(L, N).\n',
+                File),
+    with_hosts([alpha-[consult(File)], beta-[consult(File)]],
+               ( solved(alpha, Counts), solved(beta, Counts) )).
+
+%   Two agents, one after the other, in each worker.
+
+solved(Host, Counts) :-
+    assertion(remote(Host, ( leq(A, B), leq(B, C), leq(C, A),
+                             A == B, B == C ))),
+    findall(Agent,
+            ( between(1, 8, _),
+              create([ (main :- leq(A1, B1), leq(B1, A1), A1 == B1,
+                                leq(a, b), stored(N1), sleep(0), stored(N2),
+                                leq(c, d), stored(N3), sleep(0), stored(N4),
+                                result([N1,N2,N3,N4])) ], Agent,
+                     [host(Host)]) ),
+            Agents),
+    findall(Result, ( member(Agent, Agents),
+                      agent_result(Agent, Result, 20) ), Results),
+    sort(Results, [Counts]).
+
+:- end_tests(place_constraints).
