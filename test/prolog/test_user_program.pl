@@ -40,6 +40,11 @@ usual("").
 usual("life(\"a string\",42,[agents,hosts,time])\n\c
        [created,ended(done),[1.5,'An atom']]\n").
 
+usual(Warning) :-                       % of Prolog itself
+    string(Warning),
+    sub_string(Warning, _, _, _, "Using a non-error value for unknown"),
+    aggregate_all(count, sub_string(Warning, _, _, _, "\n"), 5).
+
 %   defines(-PI): of system, or of an autoloaded library, if users may define it.
 
 defines(Name/Arity) :-
@@ -133,6 +138,14 @@ user_sets((:- set_prolog_flag(protect_static_code, true))).
 user_sets((:- set_prolog_flag(double_quotes, codes))).
 user_sets((:- set_prolog_flag(double_quotes, atom))).
 user_sets((:- set_prolog_flag(generate_debug_info, false))).
+user_sets((:- set_prolog_flag(Flag, Value))) :-
+    member(Flag=Value,
+           [ iso=true, stream_type_check=true, occurs_check=true,
+             occurs_check=error, character_escapes=false, var_prefix=true,
+             rational_syntax=natural, prefer_rationals=true, unknown=fail,
+             unknown=warning, last_call_optimisation=false, optimise=true,
+             double_quotes=string, back_quotes=symbol_char,
+             float_undefined=nan, debug=true ]).
 user_sets((:- op(0, xfx, =), op(0, xfy, :), op(0, yfx, -), op(200, xfy, log))).
 user_sets((:- dynamic(goal_expansion/2))).
 user_sets((goal_expansion(member(_, _), fail))).

@@ -132,7 +132,9 @@ follower_alias(Tag, Alias) :-
 
 send_term(In, Term) :-
     set_stream(In, encoding(utf8)),
-    format(In, '~k.~n', [Term]),
+    write_term(In, Term,                % with the syntax of system, not of user
+               [ quoted(true), ignore_ops(true), numbervars(false),
+                 module(system), fullstop(true), nl(true) ]),
     flush_output(In).
 
 command(local, At, Swipl, Args, At) :-

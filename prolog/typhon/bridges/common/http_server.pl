@@ -98,7 +98,8 @@ http_server_close(Server) :-
                 *******************************/
 
 accept_all(Server, Socket, Most, Serve) :-
-    repeat,
+    set_prolog_flag(stream_type_check, loose), % library(http) needs that; the
+    repeat,                             % threads of clients inherit it
     catch(accept(Server, Socket, Most, Serve), error(Formal, _),
           accept_failed(Server, Formal)),
     fail.

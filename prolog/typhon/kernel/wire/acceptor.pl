@@ -100,7 +100,7 @@ admit(In, Out, Ip, Me) :-
 
 let_in(In, Out, Ip, Me, Evicted) :-
     (   wait_for_input([In], [_], 0)
-    ->  peek_byte(In, Byte),
+    ->  peek_code(In, Byte),
         check_first(Byte, Out)
     ;   true
     ),

@@ -82,7 +82,7 @@ incoming(In, Out, Ip, Stage, Me) :-
 await_first_byte(In, Out) :-
     setting(typhon_handshake:handshake_time, Seconds),
     set_stream(In, timeout(Seconds)),
-    peek_byte(In, Byte),
+    peek_code(In, Byte),
     (   Byte == -1
     ->  syntax_error(end_of_file)
     ;   transport_first(Byte, Out)
@@ -197,10 +197,15 @@ open_streams(Socket, In, Out) :-
           Error,
           ( tcp_close_socket(Socket),
             throw(Error) )),
-    set_stream(In, encoding(octet)),
-    set_stream(Out, encoding(octet)),
-    set_stream(In, buffer_size(65536)),
-    set_stream(Out, buffer_size(65536)).
+    octets(In),
+    octets(Out).
+
+%   For the flag stream_type_check, the bytes of frames are characters.
+
+octets(Stream) :-
+    set_stream(Stream, type(text)),
+    set_stream(Stream, encoding(iso_latin_1)),
+    set_stream(Stream, buffer_size(65536)).
 
 		 /*******************************
 		 *           MEETING            *

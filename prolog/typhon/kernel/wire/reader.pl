@@ -179,11 +179,11 @@ times_damaged(Key, Count, Which, Times) :-
     ;   true
     ).
 
-%   Fails if no frame begins within the time-out.  A time-out of peek_byte/2
+%   Fails if no frame begins within the time-out.  A time-out of peek_code/2
 %   loses no byte.
 
 next(In, Max, Counts, Bytes) :-
-    catch(peek_byte(In, _), error(timeout_error(_, _), _), fail),
+    catch(peek_code(In, _), error(timeout_error(_, _), _), fail),
     frame_read(In, Max, Counts, Bytes).
 
 %   Three silences in a row are too many while an answer is due.

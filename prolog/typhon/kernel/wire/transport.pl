@@ -255,7 +255,7 @@ line_codes(In, Deadline, Space, Codes) :-
     monotonic_time(Now),
     Left is max(0.001, Deadline-Now),
     set_stream(In, timeout(Left)),
-    get_byte(In, Byte),
+    get_code(In, Byte),
     (   Byte == 0'\n
     ->  Codes = []
     ;   Byte == -1

@@ -191,7 +191,8 @@ welcome(client, SIn, _) :-
     ).
 
 octets(Stream) :-
-    set_stream(Stream, encoding(octet)),
+    set_stream(Stream, type(text)),
+    set_stream(Stream, encoding(iso_latin_1)),
     set_stream(Stream, buffer_size(65536)).
 
 peer_name(SIn, Name) :-
