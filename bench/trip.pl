@@ -3,7 +3,7 @@
             trips/4,                    % +Terms, +Trips, +Streams, -Rates
             trip_bytes/1                % -Bytes
           ]).
-:- use_module(library(apply), [maplist/3]).
+:- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(lists), [append/3]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(socket)).

@@ -1,5 +1,5 @@
 :- module(layers_loaded, [loaded_problem/1]).   % -Problem
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(prolog_codewalk), [prolog_walk_code/1]).
 :- use_module(tree).
 
@@ -29,7 +29,8 @@ loaded_problem(Problem) :-
     ).
 
 product_module(File, Module) :-
-    member(Folder, ['prolog/', 'agents/', 'app/', 'experiments/', 'doc/']),
+    member(Folder, [ 'prolog/', 'agents/', 'app/', 'experiments/', 'doc/',
+                     'bench/', 'examples/', 'test/lib/' ]),
     inside(Folder, Start),
     module_of(File, Module),
     atom_concat(Start, _, File).
@@ -37,13 +38,15 @@ product_module(File, Module) :-
 :- dynamic missing/2.                   % Module, PI
 
 %   Library(main) defines the hooks opt_type/3 and its like where it needs them.
+%   Programs as data have atoms that look like closures: main, true.
 
 :- public keep/3.
 
 keep(Module:Goal, _, _) :-
     functor(Goal, Name, Arity),
     (   module_of(_, Module),
-        \+ sub_atom(Name, 0, _, _, opt_)
+        \+ sub_atom(Name, 0, _, _, opt_),
+        \+ memberchk(Name/Arity, [main/1, true/1])
     ->  assertz(missing(Module, Name/Arity))
     ;   true
     ).

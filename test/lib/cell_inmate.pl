@@ -9,6 +9,7 @@
           ]).
 :- use_module(common).
 :- use_module(fixtures).
+:- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(readutil), [read_file_to_terms/3]).

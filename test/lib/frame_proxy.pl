@@ -32,6 +32,7 @@ for the main thread of a test.
 */
 
 :- use_module(relay).
+:- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(lists), [member/2]).
 
 :- meta_predicate script(+, 1).

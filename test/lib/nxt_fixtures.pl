@@ -17,6 +17,7 @@ one.  Both are processes of their own behind pseudo-terminals.
 */
 
 :- use_module(common).
+:- use_module(library(debug), [assertion/1]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(filesex), [directory_file_path/3]).

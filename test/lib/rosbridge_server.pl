@@ -8,11 +8,12 @@
             rosbridge_cut/0,
             rosbridge_clients/1         % -Count
           ]).
+:- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(http/http_dispatch)).
 :- use_module(library(http/http_stream), []).
 :- use_module(library(http/thread_httpd)).
 :- use_module(library(http/websocket)).
-:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(lists), [member/2, memberchk/2, reverse/2]).
 :- use_module('../../prolog/typhon/kernel/base/json',
               [json_dict/2, json_text/2]).
 
