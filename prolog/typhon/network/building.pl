@@ -175,7 +175,7 @@ plan_option(Plan, Option, Default) :-
 %   Start a log server, with options as of log_serve/2.
 
 network_log(Network, Spec, Options, Address) :-
-    absolute_file_name(Spec, File),
+    absolute_file_name(Spec, File, [access(none)]),
     atom_concat(Network, '_log', Name),
     log_serve([file(File), name(Name)|Options], Address),
     assertz(part(Network, log(Address, File))).

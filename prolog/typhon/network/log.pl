@@ -180,10 +180,7 @@ prolog:message(typhon(no_log_server(Name, Host))) -->
 %   source_sink, File)
 
 log_writer_start(Spec, Mode, File, Writer) :-
-    (   absolute_file_name(Spec, File)
-    ->  true
-    ;   existence_error(source_sink, Spec)
-    ),
+    absolute_file_name(Spec, File, [access(none)]),
     log_open(File, Mode, Stream),
     catch(server_start(log_writer, typhon_log:written(File), open(Stream, 0),
                        [max_size(100 000)], Writer),

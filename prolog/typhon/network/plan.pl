@@ -88,8 +88,8 @@ option_type(log(File, _), ground, File).
 option_type(places(Places), nonvar, Places).
 option_type(dynamic(Model), nonvar, Model).
 option_type(seed(Seed), integer, Seed).
-option_type(journal(Directory), atom, Directory).
-option_type(journal(postgresql(Url)), atom, Url).
+option_type(journal(Directory), text, Directory).
+option_type(journal(postgresql(Url)), text, Url).
 option_type(sync(How), oneof([full, normal]), How).
 option_type(restart(Restart), boolean, Restart).
 

@@ -237,7 +237,7 @@ format_version(1).
 %   existence_error(source_sink, File)
 
 saved_write(Spec, Terms) :-
-    absolute_file_name(Spec, File),
+    absolute_file_name(Spec, File, [access(none)]),
     output_file(saved_network, File),
     header(Header),
     private_write(File, write_all([Header|Terms])).
@@ -280,7 +280,7 @@ sum_of(Bytes, Sum) :-
 %   @error network_version(File, Version) the file has another format
 
 saved_read(Spec, Terms) :-
-    absolute_file_name(Spec, File),
+    absolute_file_name(Spec, File, [access(none)]),
     must_be_there(File),
     read_file_to_string(File, Bytes, [encoding(octet)]),
     split_string(Bytes, "\n", "", Parts),

@@ -37,7 +37,7 @@ With the option audit(File) each security event appends a line to File,
 typhon_output_files:begins(audit, "audit(").
 
 typhon_options:declared(host_option, peer(Rules), list, Rules).
-typhon_options:declared(host_option, audit(File), atom, File).
+typhon_options:declared(host_option, audit(File), text, File).
 
 typhon_host_parts:check(Options) :-
     forall(member(peer(Rules), Options), must_be_peer_rules(Rules)),

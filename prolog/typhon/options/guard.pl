@@ -54,8 +54,8 @@ host_start/2 those of views.
     variant/3,                  % Hash, Policy, Module
     retired/1.                  % Module: destroyed at the next retirement
 
-typhon_options:declared(host_option, policy(Policy), atom, Policy).
-typhon_options:declared(check_option, policy(Policy), atom, Policy).
+typhon_options:declared(host_option, policy(Policy), text, Policy).
+typhon_options:declared(check_option, policy(Policy), text, Policy).
 
                 /*******************************
                 *             VIEWS            *

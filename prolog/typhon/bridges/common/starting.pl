@@ -20,6 +20,7 @@
               [ host/3, host_option/2, host_resolve/2, place_deliver/3,
                 place_undeliver/2, remote/2 ]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
+:- use_module('../../kernel/base/options', [check_name/2]).
 :- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
 :- autoload(subscribers, [subscribers_forget/2]).
 
@@ -40,6 +41,7 @@ removed when the service or its host ends.
     starts/4,                   % Bridge, Host, What, Options: of this process
     has/3,                      % Bridge, Host, Property: hosts of this process
     delivers/3,                 % Host, Name, Source: a payload of Python code
+    typhon_names:known/2,
     typhon_program_words:python_delivered/3.
 
 %!  python_start(+Host, +File, +Options) is det.
@@ -186,14 +188,22 @@ ros_stop(Host) :-
 %   @error existence_error(host, Host)
 
 ros_property(Host, Property) :-
+    check_name(ros_property, Property),
+    property_of(Host, Property).
+
+property_of(Host, Property) :-
     var(Host),
     !,
     has(ros, Host, Property).
-ros_property(Host, Property) :-
+property_of(Host, Property) :-
     must_be(atom, Host),
     host_resolve(Host, Where),
     properties_at(Where, ros-Property, Host, Properties),
     member(Property, Properties).
+
+typhon_names:known(ros_property, Property) :-
+    member(Property, [ way(_), connected(_), heard(_, _), published(_, _),
+                       offered(_, _), ignored(_) ]).
 
 %!  fipa_start(+Host, +URL, +Options) is det.
 %

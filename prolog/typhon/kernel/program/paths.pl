@@ -88,6 +88,11 @@ program_directory(Kind, Dir) :-
 %   @error existence_error(source_sink, Spec), or permission_error(open,
 %   source_sink, File) if it exists, and may not be read
 
+program_file(Text, File) :-
+    string(Text),
+    !,
+    atom_string(Spec, Text),
+    program_file(Spec, File).
 program_file(Spec, File) :-
     must_be(callable, Spec),
     clause_file(Spec, [], File).

@@ -88,8 +88,8 @@ journal_open(Where, Sync, Seconds) :-
             throw(error(Formal, Context)) )),
     assertz(connection(Place, Connection)).
 
-typhon_options:declared(host_option, journal(X), atom, X).
-typhon_options:declared(host_option, journal(postgresql(X)), atom, X).
+typhon_options:declared(host_option, journal(X), text, X).
+typhon_options:declared(host_option, journal(postgresql(X)), text, X).
 typhon_options:declared(host_option, sync(X), oneof([full, normal]), X).
 
 prepare(Age, Place, Base, Sync, Connection) :-

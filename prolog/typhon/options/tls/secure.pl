@@ -46,7 +46,7 @@ of its connection.  The connection manager limits its duration.
     typhon_transport:opens/7,
     typhon_transport:closes/0.
 
-typhon_options:declared(host_option, tls(Directory), atom, Directory).
+typhon_options:declared(host_option, tls(Directory), text, Directory).
 
 %   A guest, a process without hosts, gets the option from the environment.
 
