@@ -14,6 +14,7 @@ link to the page, and runs until Ctrl-C.
 and failures until it is stopped.
 */
 
+:- use_module('typhon/arguments', [arguments/3]).
 :- use_module('../prolog/typhon/kernel/base/monotonic', [wait_within/2]).
 :- use_module('../prolog/typhon',
               [ agent_create/3, agent_property/2, network_property/2,
@@ -25,7 +26,7 @@ and failures until it is stopped.
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(filesex), [make_directory_path/1]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(main), [argv_options/3, main/0]).
+:- use_module(library(main), [main/0]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(socket),
               [ gethostname/1, tcp_bind/2, tcp_close_socket/1, tcp_setopt/2,
@@ -40,7 +41,7 @@ and failures until it is stopped.
 :- public main/1.
 
 main(Argv) :-
-    argv_options(Argv, _, Options),
+    arguments(Argv, [], Options),
     option(port(Port), Options, 8080),
     option(seed(Seed), Options, 1),
     must_be_free(Port),

@@ -22,6 +22,7 @@ stopped waits for a message, which the handlers of signals send.
               [runtime_acquire/2, runtime_release/1]).
 :- use_module('../prolog/typhon/kernel/base/process_setup', [process_setup/0]).
 :- use_module('../prolog/typhon/tools/page', [page_export/3, page_serve/2]).
+:- use_module(typhon/arguments, [arguments_complete/2]).
 :- use_module(typhon/commands, [command/4, footer/2, option/5]).
 :- use_module(typhon/diagnose, [diagnose/1]).
 :- use_module(typhon/diagnose_fipa, [diagnose_fipa/1]).
@@ -36,7 +37,7 @@ stopped waits for a message, which the handlers of signals send.
 :- use_module(typhon/serving, [and_then/2, run_until_stopped/3]).
 :- use_module(typhon/story, [story/2]).
 :- use_module(typhon/usage, [complain/2]).
-:- use_module(library(lists), [member/2, nth0/3]).
+:- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(main), [argv_options/4, main/0]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(readutil), [read_file_to_terms/3]).
@@ -79,8 +80,10 @@ opt_meta(Option, Meta) :-
 
 main(Argv) :-
     process_setup,
-    catch(dispatch(Argv), error(Formal, Context),
-          ( nth0(0, Argv, Command),
+    module_property(typhon_app, file(Script)),
+    catch(( arguments_complete(Script, Argv), dispatch(Argv) ),
+          error(Formal, Context),
+          ( ( command_in(Argv, Command, _) -> true ; Command = none ),
             complain(Command, error(Formal, Context)),
             fail )),
     !,
@@ -95,7 +98,8 @@ dispatch(['--version']) :-
     read_file_to_terms(Pack, Terms, []),
     memberchk(version(Version), Terms),
     print_line(Version).
-dispatch([Command|Argv]) :-
+dispatch(Words) :-
+    command_in(Words, Command, Argv),
     command(Command, _, Positional, _),
     !,
     assertz(current_command(Command)),
@@ -103,18 +107,49 @@ dispatch([Command|Argv]) :-
         memberchk(Help, Argv)
     ->  command_help
     ;   check_options(Argv, Command),
-        argv_options(typhon_app:Argv, Arguments, Options, []),
+        parsed(Command, Argv, Arguments, Options),
         check_count(Command, Positional, Arguments),
         with_keys(Options),
         run_connected(Command, Arguments, Options)
     ).
 dispatch(Argv) :-
-    (   Argv = [Word|_],
-        \+ memberchk(Word, ['--help', '-h', help])
+    (   command_in(Argv, Word, _),
+        Word \== help
     ->  findall(Command, command(Command, _, _, _), Commands),
         throw(error(typhon_usage(unknown_command(Word, Commands)), _))
     ;   overview
     ).
+
+%   command_in(+Words, -Command, -Argv): the options of a command may precede it.
+
+command_in(Words, Command, Argv) :-
+    append(Before, [Command|After], Words),
+    \+ sub_atom(Command, 0, _, _, -),
+    \+ ( append(_, [Option], Before), takes_value(Option) ),
+    !,
+    append(Before, After, Argv).
+
+takes_value(Word) :-
+    atom_concat('--', Text, Word),
+    atomic_list_concat(Parts, -, Text),
+    atomic_list_concat(Parts, '_', Option),
+    option(_, Option, Type, _, _),
+    Type \== boolean.
+
+parsed(Command, Argv, Arguments, Options) :-
+    catch(argv_options(typhon_app:Argv, Arguments, Options, []),
+          error(Formal, Context),
+          not_parsed(Formal, Context, Command)).
+
+not_parsed(opt_error(Problem), _, Command) :-
+    !,
+    throw(error(typhon_usage(option(Command, Problem)), _)).
+not_parsed(syntax_error(_), string(Text0, _), _) :-
+    !,
+    split_string(Text0, "", " .\n", [Text]),
+    throw(error(typhon_usage(not_a_term(Text)), _)).
+not_parsed(Formal, Context, _) :-
+    throw(error(Formal, Context)).
 
 %   argv_options/4 would end the process itself, without suggestions.
 
@@ -183,8 +218,8 @@ check_count(_, Positional, Arguments) :-
     ;   Positional == Count
     ),
     !.
-check_count(Command, _, _) :-
-    throw(error(typhon_usage(arguments(Command)), _)).
+check_count(Command, _, Arguments) :-
+    throw(error(typhon_usage(arguments(Command, Arguments)), _)).
 
 overview :-
     called_as(Program),
@@ -265,7 +300,7 @@ run(tree, [], Options) :-
     host_now(Host, _),
     print_tree([Host]).
 run(send, [Agent0, Message0], Options) :-
-    read_argument(Message0, Message),
+    message_argument(Message0, Message),
     agent_argument(Agent0, Options, Agent),
     home_of(Agent, Home),
     option(host(Host), Options, Home),
@@ -321,7 +356,7 @@ run(diagnose, [Kind, Port], _) :-
     ->  diagnose_nxt(Port)
     ;   Kind == fipa
     ->  diagnose_fipa(Port)
-    ;   throw(error(typhon_usage(arguments(diagnose)), _))
+    ;   throw(error(typhon_usage(arguments(diagnose, [Kind,Port])), _))
     ).
 
 bridge_named([python]).
@@ -350,6 +385,15 @@ read_argument(Text, Term) :-
     catch(term_to_atom(Term, Text),
           error(syntax_error(_), _),
           throw(error(typhon_usage(not_a_term(Text)), _))).
+
+%   Text without quotes that is one variable was meant as text.
+
+message_argument(Text, Message) :-
+    catch(term_to_atom(Message, Text), error(syntax_error(_), _), true),
+    (   nonvar(Message)
+    ->  true
+    ;   throw(error(typhon_usage(message(Text)), _))
+    ).
 
 home_of(Agent, Home) :-
     sub_atom(Agent, Before, _, _, @),

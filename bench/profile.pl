@@ -1,3 +1,4 @@
+:- use_module('../app/typhon/arguments', [arguments/3]).
 :- use_module(common).
 :- use_module(sampled).
 :- use_module(traveller).
@@ -5,7 +6,6 @@
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2, memberchk/2, nth0/3, sum_list/2]).
-:- use_module(library(main), [argv_options/3]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module(library(solution_sequences), [distinct/2]).
@@ -41,7 +41,7 @@ opt_help(agents, 'agents that travel at a time (default 1)').
     seen_in/3.                  % Process-Role, Cpu, Seen: in the same run
 
 main(Argv) :-
-    argv_options(Argv, _, Options),
+    arguments(Argv, [], Options),
     profile('between processes', 1, with_peer([env]),
             [here-worker, here-reader, there-worker, there-reader], Options),
     profile('within a process', 5, with_near, [here-worker], Options).

@@ -1,7 +1,7 @@
+:- use_module('../app/typhon/arguments', [arguments/3]).
 :- use_module(library(error), [existence_error/2]).
 :- use_module(library(filesex), [directory_file_path/3, make_directory_path/1]).
 :- use_module(library(lists), [append/3, member/2, memberchk/2]).
-:- use_module(library(main), [argv_options/3]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(csv), [csv_write_file/2]).
@@ -27,7 +27,7 @@ opt_help(out, 'directory to write to (default out/bench)').
 opt_meta(out, 'DIR').
 
 main(Argv) :-
-    argv_options(Argv, Names, Options),
+    arguments(Argv, Names, Options),
     forall(member(Name, Names), must_be_known(Name)),
     option(out(Out), Options, 'out/bench'),
     make_directory_path(Out),

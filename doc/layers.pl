@@ -38,6 +38,7 @@ status 1 if one is exceeded.
 *Threading*: the main thread.
 */
 
+:- use_module('../app/typhon/arguments', [arguments/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(main), [main/0]).
 :- use_module(layers/check).
@@ -51,7 +52,11 @@ status 1 if one is exceeded.
 
 :- public main/1.
 
-main([check]) :-
+main(Argv) :-
+    arguments(Argv, Words, []),
+    do(Words).
+
+do([check]) :-
     read_tree,
     findall(Problem, problem(Problem), Problems0),
     sort(Problems0, Problems),
@@ -60,16 +65,16 @@ main([check]) :-
     ->  true
     ;   halt(1)
     ).
-main([index]) :-
+do([index]) :-
     read_tree,
     write_index.
-main([kinds]) :-
+do([kinds]) :-
     read_tree,
     write_kinds.
-main([picture]) :-
+do([picture]) :-
     read_tree,
     picture.
-main([figures]) :-
+do([figures]) :-
     read_tree,
     (   figures
     ->  true

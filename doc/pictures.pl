@@ -12,6 +12,7 @@ made from networks that are started for them.
 *Threading*: the main thread.
 */
 
+:- use_module('../app/typhon/arguments', [arguments/3]).
 :- use_module(pictures/applications, [application_pictures/1]).
 :- use_module(pictures/layers, [layers_picture/1]).
 :- use_module(pictures/page, [page_pictures/1]).
@@ -26,10 +27,14 @@ made from networks that are started for them.
 
 :- public main/1.
 
-main([Directory]) :-
+main(Argv) :-
+    arguments(Argv, Words, []),
+    pictures(Words).
+
+pictures([Directory]) :-
     !,
-    main([Directory, layers, spacetime, page, applications, studies]).
-main([Directory|Kinds]) :-
+    pictures([Directory, layers, spacetime, page, applications, studies]).
+pictures([Directory|Kinds]) :-
     must_be(list(oneof([ layers, spacetime, page, applications, studies ])),
             Kinds),
     make_directory_path(Directory),

@@ -12,6 +12,7 @@ Says which links are broken, and fails if any are.
 *Threading*: the main thread.
 */
 
+:- use_module('../app/typhon/arguments', [arguments/3]).
 :- use_module(site/reference).          % first, see there
 :- use_module(site/markdown).
 :- use_module(library(filesex),
@@ -39,7 +40,8 @@ Says which links are broken, and fails if any are.
    file_directory_name(Dir, Root),
    assertz(root(Root)).
 
-main([Dir0]) :-
+main(Argv) :-
+    arguments(Argv, [Dir0], []),
     absolute_file_name(Dir0, Dir),
     root(Root),
     working_directory(_, Root),

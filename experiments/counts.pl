@@ -10,6 +10,7 @@
 */
 
 :- module(counts, []).
+:- use_module('../app/typhon/arguments', [arguments/3]).
 :- use_module('../prolog/typhon', [log_events/2]).
 :- use_module(engine/cases, [case_name/3]).
 :- use_module(engine/catalogue, [studies_named/2]).
@@ -20,7 +21,7 @@
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(main), [argv_options/3, main/0]).
+:- use_module(library(main), [main/0]).
 :- use_module(library(option), [option/2, option/3]).
 
 :- initialization(main, main).
@@ -34,7 +35,7 @@ opt_type(every, every, number).
 opt_type(list, list, boolean).
 
 main(Argv) :-
-    argv_options(Argv, Names, Options),
+    arguments(Argv, Names, Options),
     studies_named(Names, Files),
     maplist(study_load, Files, Studies),
     plans(Studies, Options, Plans),

@@ -7,7 +7,7 @@
 */
 
 :- module(study, []).
-:- use_module('../app/typhon/arguments', [arguments_complete/2]).
+:- use_module('../app/typhon/arguments', [arguments/3]).
 :- use_module(engine/catalogue, [catalogue/1, studies_named/2]).
 :- use_module(engine/commands, [run_command/5]).
 :- use_module(engine/figures, [figures/3]).
@@ -23,7 +23,7 @@
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2, selectchk/3]).
-:- use_module(library(main), [argv_options/3, main/0]).
+:- use_module(library(main), [main/0]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 
@@ -78,10 +78,8 @@ opt_meta(out,  'DIRECTORY').
 main(Argv) :-
     set_stream(user_output, encoding(utf8)),
     set_stream(user_error, encoding(utf8)),
-    module_property(study, file(Script)),
-    catch(( arguments_complete(Script, Argv),
-            parsed(Argv, Names, Options),
-            stopping_on_signals(command(Names, Options)) ),
+    parsed(Argv, Names, Options),
+    catch(( stopping_on_signals(command(Names, Options)) ),
           error(Formal, Context),
           ( print_message(error, error(Formal, Context)),
             halt(1) )).
@@ -89,11 +87,11 @@ main(Argv) :-
 parsed(Argv0, Names, [help(true)|Options]) :-
     member(Help, ['--help', '-h']),
     selectchk(Help, Argv0, Argv),
-    argv_options(Argv, Names, Options),
+    arguments(Argv, Names, Options),
     Names \== [],
     !.
 parsed(Argv, Names, Options) :-
-    argv_options(Argv, Names, Options).
+    arguments(Argv, Names, Options).
 
 command([], _) :-
     !,

@@ -18,6 +18,7 @@ killed, counts as a failure.
 inherit its blocked signals, SIGINT for one.
 */
 
+:- use_module('../app/typhon/arguments', [arguments/3]).
 :- use_module('lib/common', [project_file/2, wait_until/2, with_tmp_dir/1]).
 :- use_module('lib/left_behind',
               [ kill_all_left_behind/0, kill_left_behind/2, suite_mark/2 ]).
@@ -73,7 +74,8 @@ plain(kernel).
 plain(single).
 plain(user_program).
 
-main(Names) :-
+main(Argv) :-
+    arguments(Argv, Names, []),
     suite_files(Names, Files0),
     map_list_to_pairs(place, Files0, Pairs0),
     keysort(Pairs0, Pairs),

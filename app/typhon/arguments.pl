@@ -1,19 +1,46 @@
 :- module(typhon_arguments,
-          [ arguments_complete/2        % +Script, +Argv
+          [ arguments/3,                % :Argv, -Words, -Options
+            arguments_complete/2        % +Script, +Argv
           ]).
 :- use_module(library(lists), [append/3, last/2]).
+:- use_module(library(main), [argv_options/3]).
 
-/** <module> Arguments that SWI-Prolog has taken
+/** <module> The arguments of the programs of the project
 
 *Threading*: the main thread only.
 */
 
+:- meta_predicate arguments(:, -, -).
+
+%!  arguments(:Argv, -Words:list, -Options:list) is det.
+%
+%   Words and Options are the arguments of the program that is the module of
+%   Argv, as of argv_options/3.  If they do not unify the program ends with
+%   status 1; so it does without `--` before files, because SWI-Prolog loads
+%   these, and leaves the other arguments.
+
+arguments(Program:Argv, Words, Options) :-
+    once(( module_property(Program, file(Script))
+         ; predicate_property(Program:main(_), file(Script)) )),
+    catch(( arguments_complete(Script, Argv),
+            argv_options(Program:Argv, Given, Options0),
+            taken(Script, Given-Options0, Words-Options) ),
+          error(Formal, Context),
+          ( print_message(error, error(Formal, Context)),
+            halt(1) )).
+
+taken(_, Given, Given) :-
+    !.
+taken(Script, Words-Options, _) :-
+    file_base_name(Script, Base),
+    append(Words, Options, Others),
+    throw(error(typhon_arguments(refused(Base, Others)), _)).
+
 %!  arguments_complete(+Script, +Argv) is det.
 %
-%   Argv are all arguments of the file Script.  Without `--` before them,
-%   SWI-Prolog loads those that are files, and leaves the others.
+%   SWI-Prolog has not loaded files among the arguments of the file Script.
 %
-%   @error typhon_arguments(Script, Words): Words are to follow `--`
+%   @error typhon_arguments(loaded(Script, Words)): Words are to follow `--`
 
 arguments_complete(Script, Argv) :-
     current_prolog_flag(os_argv, Words),
@@ -28,11 +55,13 @@ arguments_complete(Script, Argv) :-
     same_file(Loaded, Script),
     !,
     append(Taken, Argv, All),
-    throw(error(typhon_arguments(Loaded, All), _)).
+    throw(error(typhon_arguments(loaded(Loaded, All)), _)).
 arguments_complete(_, _).
 
 :- multifile prolog:error_message//1.
 
-prolog:error_message(typhon_arguments(Script, Words)) -->
+prolog:error_message(typhon_arguments(loaded(Script, Words))) -->
     { atomic_list_concat(Words, ' ', Text) },
     [ 'Arguments follow --: swipl ~w -- ~w'-[Script, Text] ].
+prolog:error_message(typhon_arguments(refused(Program, Words))) -->
+    [ '~w does not take these arguments: ~q'-[Program, Words] ].

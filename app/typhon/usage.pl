@@ -24,12 +24,21 @@
 complain(_, error(io_error(write, Stream), context(_, 'Broken pipe'))) :-
     stream_property(Stream, alias(user_output)),
     !.                                  % its reader, as head(1), closed it
-complain(Command, Error) :-
+complain(Command, Error0) :-
+    without_predicate(Error0, Error),
     (   Error = error(Formal, Context),
         ( hint(Formal, Hint) ; no_program(Command, Formal, Context, Hint) )
     ->  print_message(error, typhon_hint(Error, Hint))
     ;   print_error(error, Error)
     ).
+
+%   The user of a command has called no predicate.
+
+without_predicate(error(Formal, Context), error(Formal, context(_, Text))) :-
+    subsumes_term(context(raised(_), _), Context),
+    !,
+    Context = context(_, Text).
+without_predicate(Error, Error).
 
 %   The command to try next.
 
@@ -66,9 +75,31 @@ usage(unknown_option(Command, Option, Options)) -->
       names_listed(Options, All)
     },
     [ '~w has no option --~w~w~w'-[Command, Option, Meant, All] ].
-usage(arguments(Command)) -->
+usage(arguments(Command, _)) -->
+    { command(Command, '', _, _) },
+    !,
+    [ '~w takes options only; see ~w --help'-[Command, Command] ].
+usage(arguments(send, [_,Word,Next|Words])) -->
+    !,
+    { atomic_list_concat([Word,Next|Words], ' ', Text) },
+    usage(message(Text)).
+usage(arguments(Command, _)) -->
     { command(Command, Arguments, _, _) },
     [ '~w takes ~w; see ~w --help'-[Command, Arguments, Command] ].
+usage(message(Text)) -->
+    { term_to_atom(Text, Quoted) },
+    [ 'a message is a Prolog term; text is written in quotes: "~w"'-
+      [Quoted] ].
+usage(option(Command, missing_value(Option, _))) -->
+    [ '--~w needs a value; see ~w --help'-[Option, Command] ].
+usage(option(Command, value_type(Option, Type, Value))) -->
+    { expected(Type, Expected) },
+    [ '--~w ~w: ~w expected; see ~w --help'-
+      [Option, Value, Expected, Command] ].
+usage(option(Command, access_file(File, _))) -->
+    [ 'the file ~w cannot be read; see ~w --help'-[File, Command] ].
+usage(option(Command, unknown_option(_:Option))) -->
+    [ '~w has no option -~w; see ~w --help'-[Command, Option, Command] ].
 usage(required(Command, Option)) -->
     [ '~w needs --~w; see ~w --help'-[Command, Option, Command] ].
 usage(not_a_term(Text)) -->
@@ -95,6 +126,11 @@ usage(not_one_host(Name, [])) -->
 usage(not_one_host(Name, Addresses)) -->
     { atomic_list_concat(Addresses, ' or ', Text) },
     [ 'several are named ~w: ~w?'-[Name, Text] ].
+
+expected(nonneg, 'an integer of at least 0') :- !.
+expected(natural, 'an integer of at least 1') :- !.
+expected(boolean, 'true or false') :- !.
+expected(Type, Type).
 
 in_log(Names, Count) -->
     { Count > 0,

@@ -13,7 +13,7 @@ minute.  The exit status is 0 if every criterion holds.
 *Threading*: the main thread.
 */
 
-:- use_module('../../app/typhon/arguments', [arguments_complete/2]).
+:- use_module('../../app/typhon/arguments', [arguments/3]).
 :- use_module(checks/course, [criterion/3, exercise/2, exercise_verdict/3]).
 :- use_module(checks/first_agent, []).
 :- use_module(checks/stigmergy, []).
@@ -27,7 +27,7 @@ minute.  The exit status is 0 if every criterion holds.
 :- use_module(library(csv), [csv_write_stream/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [append/3, member/2]).
-:- use_module(library(main), [argv_options/3, main/0]).
+:- use_module(library(main), [main/0]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(process),
               [process_create/3, process_kill/2, process_wait/2]).
@@ -54,11 +54,7 @@ main(['--inside', File]) :-
     check_here(File).
 main(Argv) :-
     set_stream(user_output, encoding(utf8)),
-    module_property(course_check, file(Script)),
-    catch(arguments_complete(Script, Argv), error(Formal, Context),
-          ( print_message(error, error(Formal, Context)),
-            halt(1) )),
-    argv_options(Argv, Names, Options),
+    arguments(Argv, Names, Options),
     hand_ins(Names, Options, Files),
     check_all(Files, Options).
 

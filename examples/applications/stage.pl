@@ -3,11 +3,11 @@
             stage_option/3,             % ?Name, -Type, -Help
             stage_story/3               % +Network, +Seconds, :Say
           ]).
+:- use_module('../../app/typhon/arguments', [arguments/3]).
 :- use_module('../../prolog/typhon',
               [ network_advance/2, network_start/3, network_stop/1 ]).
 :- use_module('../../prolog/typhon/tools/page', [page_serve/2, page_stop/0]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(main), [argv_options/3]).
 :- use_module(library(option), [option/3]).
 
 /** <module> Common part of the applications: network, page, and end
@@ -31,15 +31,14 @@ threads, a signal may reach a new thread, and would be lost.
 %!  stage(:Argv, +Scene, :Play) is det.
 %
 %   Calls call(Play, Network, Options); Options are the parsed Argv, as defined
-%   by opt_type/3 and opt_help/2 of its module, see argv_options/3.  Scene is a
+%   by opt_type/3 and opt_help/2 of its module, see arguments/3.  Scene is a
 %   module with scene_network(+Options, -Topology, -NetworkOptions);
 %   scene_step(-Seconds), of the world; the speed is in steps per second;
 %   scene_picture(-Svg) for the page; and scene_stop, called before the network
 %   ends.  Ends the process, with status 1 if Play raises an error.
 
 stage(Argv, Scene, Play) :-
-    argv_options(Argv, Others, Options),
-    none_left(Others),
+    arguments(Argv, [], Options),
     forall(member(Signal, [int, term]),
            on_signal(Signal, _, applications_stage:stop)),
     thread_create(acted(Scene, Play, Options), Thread),
@@ -51,12 +50,6 @@ stage(Argv, Scene, Play) :-
     ;   report(Status),
         halt(1)
     ).
-
-none_left([]).
-none_left([Other|_]) :-
-    print_message(error, format('unknown option ~w; --help lists the options',
-                                [Other])),
-    halt(1).
 
 report(exception(error(socket_error(eaddrinuse, _), _))) :-
     !,

@@ -143,6 +143,23 @@ test(no_process_at_the_address) :-
     format(atom(Address), 'alpha@127.0.0.1:~d', [Port]),
     atom_concat('diagnose ', Address, Advice),
     typhon_error([hosts, '--host', Address], Advice).
+test(options_without_value_or_of_another_type) :-
+    typhon_error([host, alpha, '--port'], "--port needs a value"),
+    typhon_error([host, alpha, '--port', x], "an integer of at least 0"),
+    typhon_error([host, alpha, '-p', 3], "host has no option -p"),
+    typhon_error([create, x, '--host', a, '--fact', 'p('],
+                 "not a Prolog term: p(").
+test(command_without_arguments) :-
+    typhon_error([agents, x], "agents takes options only").
+test(options_may_precede_the_command) :-
+    typhon_error(['--host', alpha, agents], "There is no host alpha"),
+    typhon_error(['--host=alpha', agents], "There is no host alpha"),
+    typhon_error(['--no-read-only', page], "page needs --host").
+test(text_without_quotes, forall(member(Words-Proposed,
+                                        [ ['Hello']-"\"'Hello'\"",
+                                          ['it is']-"\"'it is'\"",
+                                          [it, is]-"\"'it is'\"" ]))) :-
+    typhon_error([send, 'bob@alpha@127.0.0.1:9'|Words], Proposed).
 test(not_an_id) :-
     typhon_error([dispose, bob], "with --host ADDRESS a name is enough").
 

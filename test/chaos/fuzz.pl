@@ -7,9 +7,10 @@ seed of its own, from the one given on: `--count 1 --seed I` repeats one. Faults
 are printed with the seeds between which they were seen; the exit status is then
 1. */
 
+:- use_module('../../app/typhon/arguments', [arguments/3]).
 :- use_module('../lib/common').
 :- use_module(fuzz_run).
-:- use_module(library(main), [argv_options/3, main/0]).
+:- use_module(library(main), [main/0]).
 
 :- initialization(main, main).
 
@@ -23,7 +24,7 @@ opt_meta(count, 'N').
 opt_meta(seed, 'N').
 
 main(Argv) :-
-    argv_options(Argv, _, Options),
+    arguments(Argv, [], Options),
     fuzz([progress(true)|Options], Faults),
     forall(member(Fault, Faults), format('~p~n', [Fault])),
     length(Faults, Count),

@@ -10,11 +10,12 @@ the last that were printed.
 Then the kinds of hostile_kinds.pl are attempted, each as often, and a table
 shows how many attempts of each class were held. */
 
+:- use_module('../../app/typhon/arguments', [arguments/3]).
 :- use_module('../lib/common').
 :- use_module(hostile_kinds).
 :- use_module(hostile_run).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(main), [argv_options/3, main/0]).
+:- use_module(library(main), [main/0]).
 :- use_module(library(option), [option/3]).
 
 :- initialization(main, main).
@@ -40,7 +41,7 @@ opt_meta(seed, 'N').
 opt_meta(cell, 'KIND').
 
 main(Argv) :-
-    argv_options(Argv, _, Options),
+    arguments(Argv, [], Options),
     option(count(Count), Options, 500),
     hostile([progress(true)|Options], Faults),
     hostile_kinds(Options, Rows),

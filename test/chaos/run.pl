@@ -10,8 +10,9 @@ The exit status is 0 if all is well.
 *Threading*: the main thread; see chaos_cluster.
 */
 
+:- use_module('../../app/typhon/arguments', [arguments/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(main), [main/0, argv_options/3, argv_usage/1]).
+:- use_module(library(main), [main/0]).
 :- use_module('../lib/common', [with_tmp_dir/1]).
 :- use_module('../lib/quick_swipl', [quick_swipl/2]).
 :- use_module(attack).
@@ -49,12 +50,7 @@ opt_meta(settle, 'N').
 opt_meta(out, 'DIR').
 
 main(Argv) :-
-    argv_options(Argv, Rest, Options),
-    (   Rest == []
-    ->  true
-    ;   argv_usage(chaos_run),
-        halt(2)
-    ),
+    arguments(Argv, [], Options),
     with_tmp_dir(quickly(Options, Reports)),
     (   member(Report, Reports),
         report_wrong(Report)

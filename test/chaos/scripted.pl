@@ -11,6 +11,7 @@ violate the guarantees of doc/agents.md.
 *Threading*: the main thread.
 */
 
+:- use_module('../../app/typhon/arguments', [arguments/3]).
 :- use_module('../lib/common', []).
 :- use_module('../lib/scripted_hops').
 :- use_module(library(lists), [member/2]).
@@ -24,7 +25,8 @@ violations(0).
 
 :- public main/1.
 
-main(Names) :-
+main(Argv) :-
+    arguments(Argv, Names, []),
     forall(( scenario(Scenario, Links), wanted(Names, Scenario) ),
            all_of(Scenario, Links)),
     violations(Count),

@@ -2,12 +2,12 @@
           [ supervised/2,               % +Options, -Wrong
             supervised_main/0
           ]).
+:- use_module('../../app/typhon/arguments', [arguments/3]).
 :- use_module('../lib/common', [wait_until/2]).
 :- use_module('../lib/peers').
 :- use_module('../../prolog/typhon').
 :- use_module(library(apply), [exclude/3, maplist/2]).
 :- use_module(library(lists), [append/3, member/2, subtract/3]).
-:- use_module(library(main), [argv_options/3]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(random), [random_between/3, random_member/2]).
 
@@ -32,7 +32,7 @@ opt_type(rounds,  rounds,  integer).
 
 supervised_main :-
     current_prolog_flag(argv, Argv),
-    argv_options(Argv, _, Options),
+    arguments(Argv, [], Options),
     supervised(Options, Wrong),
     (   Wrong == []
     ->  halt(0)

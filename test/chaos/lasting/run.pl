@@ -14,12 +14,13 @@ nothing was lost or duplicated.
 *Threading*: the main thread.
 */
 
+:- use_module('../../../app/typhon/arguments', [arguments/3]).
 :- use_module(attack).
 :- use_module(words).
 :- use_module('../../lib/common', [with_tmp_dir/1]).
 :- use_module('../../lib/quick_swipl', [quick_swipl/2]).
 :- use_module(library(lists), [append/3, member/2, memberchk/2]).
-:- use_module(library(main), [argv_options/3, main/0]).
+:- use_module(library(main), [main/0]).
 :- use_module(library(option), [option/2, option/3, select_option/4]).
 
 :- initialization(main, main).
@@ -41,7 +42,7 @@ opt_type(faults,    faults,    term).
 opt_type(sync,      sync,      oneof([normal, full])).
 
 main(Argv) :-
-    argv_options(Argv, _, Options),
+    arguments(Argv, [], Options),
     with_tmp_dir(quickly(Options, Wrong)),
     (   Wrong == 0
     ->  halt(0)
