@@ -120,7 +120,7 @@ dispatch(Argv) :-
     ;   overview
     ).
 
-%   command_in(+Words, -Command, -Argv): the options of a command may precede it.
+%   command_in(+Words, -Command, -Argv): options may precede the command.
 
 command_in(Words, Command, Argv) :-
     append(Before, [Command|After], Words),

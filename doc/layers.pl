@@ -53,10 +53,10 @@ status 1 if one is exceeded.
 :- public main/1.
 
 main(Argv) :-
-    arguments(Argv, Words, []),
-    do(Words).
+    arguments(Argv, [Word], []),
+    do(Word).
 
-do([check]) :-
+do(check) :-
     read_tree,
     findall(Problem, problem(Problem), Problems0),
     sort(Problems0, Problems),
@@ -65,16 +65,16 @@ do([check]) :-
     ->  true
     ;   halt(1)
     ).
-do([index]) :-
+do(index) :-
     read_tree,
     write_index.
-do([kinds]) :-
+do(kinds) :-
     read_tree,
     write_kinds.
-do([picture]) :-
+do(picture) :-
     read_tree,
     picture.
-do([figures]) :-
+do(figures) :-
     read_tree,
     (   figures
     ->  true

@@ -10,6 +10,7 @@
 */
 
 :- module(counts, []).
+:- use_module('../prolog/typhon/kernel/base/names', [counted/3]).
 :- use_module('../app/typhon/arguments', [arguments/3]).
 :- use_module('../prolog/typhon', [log_events/2]).
 :- use_module(engine/cases, [case_name/3]).
@@ -57,8 +58,9 @@ counted(run(Study, Case, Seed), Options) :-
     event_count(Events, sent(_), Messages),
     aggregate_all(max(T), member(event(T, _, _, _), Events), End),
     case_name(Study, Case, Name),
-    format('~w, seed ~w: ~D hops, ~D messages, ~1f s~n',
-           [Name, Seed, Hops, Messages, End]),
+    counted(Hops, hop, Moved),
+    counted(Messages, message, Sent),
+    format('~w, seed ~w: ~w, ~w, ~1f s~n', [Name, Seed, Moved, Sent, End]),
     memory_peaks(Peaks),
     forall(member(What-Peak, Peaks), format('  ~w ~D', [What, Peak])),
     nl.

@@ -3,7 +3,7 @@
             arguments_complete/2        % +Script, +Argv
           ]).
 :- use_module(library(lists), [append/3, last/2]).
-:- use_module(library(main), [argv_options/3]).
+:- use_module(library(main), [argv_options/4]).
 
 /** <module> The arguments of the programs of the project
 
@@ -15,15 +15,16 @@
 %!  arguments(:Argv, -Words:list, -Options:list) is det.
 %
 %   Words and Options are the arguments of the program that is the module of
-%   Argv, as of argv_options/3.  If they do not unify the program ends with
+%   Argv, as of argv_options/4.  If they do not unify the program ends with
 %   status 1; so it does without `--` before files, because SWI-Prolog loads
 %   these, and leaves the other arguments.
 
-arguments(Program:Argv, Words, Options) :-
+arguments(Qualified, Words, Options) :-
+    strip_module(Qualified, Program, Argv),
     once(( module_property(Program, file(Script))
          ; predicate_property(Program:main(_), file(Script)) )),
     catch(( arguments_complete(Script, Argv),
-            argv_options(Program:Argv, Given, Options0),
+            argv_options(Qualified, Given, Options0, [on_error(halt(1))]),
             taken(Script, Given-Options0, Words-Options) ),
           error(Formal, Context),
           ( print_message(error, error(Formal, Context)),

@@ -3,6 +3,7 @@
           ]).
 :- use_module('../../prolog/typhon/kernel/agent/identity', [agent_name/3]).
 :- use_module('../../prolog/typhon/kernel/agent/life', [life_hops/2]).
+:- use_module('../../prolog/typhon/kernel/base/names', [counted/3]).
 :- use_module('../../prolog/typhon/kernel/base/text', [format_shown/2]).
 :- use_module('../../prolog/typhon/options/journal/database', [journal_part/3]).
 :- use_module('../../prolog/typhon/options/journal/store',
@@ -86,7 +87,7 @@ extracted_of(Journals, Agent, File) :-
 shown(Options) :-
     option(check(true), Options),
     !,
-    forall(kind(Kind, _), forall(journal_item(Kind, any, _, _, _), true)),
+    forall(kind(Kind, _, _), forall(journal_item(Kind, any, _, _, _), true)),
     overview,
     format('all of it can be read~n').
 shown(Options) :-
@@ -96,38 +97,40 @@ shown(Options) :-
 shown(_) :-
     overview.
 
-kind(host, hosts).
-kind(link, 'ends of links').
-kind(agent, 'agents here, and hosts of agents that have left').
-kind(mail, messages).
-kind(tuple, 'facts of tuple spaces').
-kind(payload, 'delivered payloads').
-kind(code, programs).
-kind(born, 'agents created here that have not ended').
-kind(outcome, outcomes).
-kind(left, 'results, and where the agent was cloned').
-kind(out, 'posts to other processes').
-kind(letter, 'messages about to be sent').
-kind(wait, 'messages that wait').
+kind(host, host, '').
+kind(link, end, ' of links').
+kind(agent, agent, ' here, or whose host is known here').
+kind(mail, message, '').
+kind(tuple, fact, ' of tuple spaces').
+kind(payload, 'delivered payload', '').
+kind(code, program, '').
+kind(born, agent, ' created here, not ended').
+kind(outcome, outcome, '').
+kind(left, result, ', or where the agent was cloned').
+kind(out, post, ' to other processes').
+kind(letter, message, ' about to be sent').
+kind(wait, message, ' that cannot be delivered yet').
 
 overview :-
     forall(journal_item(endpoint, any, _, _,
                         endpoint(_, Starts, Interface, Port)),
-           format_shown('process at ~w:~w, started ~D times~n',
-                        [Interface, Port, Starts])),
+           ( counted(Starts, start, Text),
+             format_shown('process at ~w:~w, ~w~n',
+                          [Interface, Port, Text]) )),
     forall(journal_item(host, any, Name, _, _),
            format_shown('host ~w~n', [Name])),
-    forall(( kind(Kind, Words), Kind \== host,
+    forall(( kind(Kind, Noun, More), Kind \== host,
              aggregate_all(count, journal_item(Kind, any, _, _, _), Count),
              Count > 0 ),
-           format('~D ~w~n', [Count, Words])).
+           ( counted(Count, Noun, Text),
+             format('~w~w~n', [Text, More]) )).
 
 agent_line(Id, agent(Host, _, Life, _, Status, _)) :-
     !,
     life_hops(Life, Hops),
     functor(Status, Name, _),
-    format_shown('~w~t~48| on ~w, ~w, after ~D hops~n',
-                 [Id, Host, Name, Hops]).
+    counted(Hops, hop, Count),
+    format_shown('~w~t~48| on ~w, ~w, after ~w~n', [Id, Host, Name, Count]).
 agent_line(_, _).
 
 extracted(Agent, File) :-

@@ -10,7 +10,7 @@
 :- use_module('../../prolog/typhon/kernel/base/error_text',
               [error_lines/3, print_error/2]).
 :- use_module('../../prolog/typhon/kernel/base/names',
-              [names_listed/2, names_proposed/3]).
+              [counted/3, names_listed/2, names_proposed/3]).
 :- use_module(commands, [command/4]).
 
 :- multifile
@@ -140,4 +140,5 @@ in_log(Names, Count) -->
     },
     [ '; agents in it: ~w'-[Text] ].
 in_log(_, Count) -->
-    [ ', which has ~D other agents'-[Count] ].
+    { counted(Count, 'other agent', Others) },
+    [ ', which has ~w'-[Others] ].

@@ -13,6 +13,7 @@
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [exclude/3, maplist/3, maplist/4]).
+:- use_module('../../prolog/typhon/kernel/base/names', [counted/3]).
 :- use_module(library(lists),
               [ append/2, append/3, list_to_set/2, member/2, memberchk/2,
                 nth1/3 ]).
@@ -148,7 +149,8 @@ mean_text(_, '').
 
 held_text(_, 0, _, 'not known') :- !.
 held_text(1, 1, 1, held) :- !.
-held_text(Of, Of, Of, Text) :- !, format(atom(Text), 'held, ~d runs', [Of]).
+held_text(Of, Of, Of, Text) :- !, counted(Of, run, Runs),
+    atom_concat('held, ', Runs, Text).
 held_text(0, Of, Of, 'DID NOT HOLD') :- !.
 held_text(Held, Of, Of, Text) :-
     !,

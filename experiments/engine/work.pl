@@ -9,6 +9,7 @@
               [process_create/3, process_kill/2, process_wait/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(solution_sequences), [distinct/2]).
+:- use_module('../../prolog/typhon/kernel/base/names', [counted/3]).
 :- use_module('../../prolog/typhon/kernel/base/monotonic',
               [monotonic_time/1, wait_within/2]).
 :- use_module(progress, [progress/4, progress_done/1]).
@@ -254,7 +255,8 @@ signal_workers(Signal) :-
                 *******************************/
 
 prolog:message(study_runs(Count, Cause)) -->
-    [ '~d runs failed: ~w'-[Count, Cause] ].
+    { counted(Count, run, Runs) },
+    [ '~w failed: ~w'-[Runs, Cause] ].
 prolog:message(study_run(run(Study, Case, Seed), Directory, Cause)) -->
     { file_base_name(Study, Name),
       dict_pairs(Case, _, Pairs) },

@@ -55,7 +55,7 @@ twice(Tmp) :-
                   process_kill(Again, term),
                   wait_for_end(Again, 20, exit(0)) )),
     typhon([journal, Dir, '--check'], exit(0), Lines),
-    forall(member(Text, [ "process1:", "process2:", "host n2", "1 outcomes",
+    forall(member(Text, [ "process1:", "process2:", "host n2", "1 outcome",
                           "all of it can be read" ]),
            has(Lines, Text)),
     typhon([network, 'ring(3)', '--journal', Dir], exit(1), [""]).

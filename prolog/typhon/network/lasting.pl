@@ -12,6 +12,7 @@
 :- use_module(library(apply), [exclude/3]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module('../kernel/base/durable_changes', [durable_opened/1]).
+:- use_module('../kernel/base/names', [counted/3]).
 :- use_module('../kernel/base/options', [check_options/2]).
 :- use_module('../kernel/host', [host/3, hosts_rest/0]).
 :- use_module('../options/journal',
@@ -277,8 +278,9 @@ differs(shape(Names0, Edges0), shape(Names, Edges)) -->
     !,
     { length(Names0, N0), length(Edges0, E0),
       length(Names, N), length(Edges, E) },
-    [ '~D hosts, ~D links, which are not these ~D hosts and ~D links'-
-      [N0, E0, N, E] ].
+    { counted(N0, host, Hosts0), counted(E0, link, Links0),
+      counted(N, host, Hosts), counted(E, link, Links) },
+    [ '~w, ~w, and not ~w, ~w'-[Hosts0, Links0, Hosts, Links] ].
 differs(no(Name), Is) -->
     !,
     [ 'it has no ~w, and not ~p'-[Name, Is] ].

@@ -11,7 +11,7 @@
 :- use_module('../kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../kernel/base/durable_changes', [durable_closed/0]).
 :- use_module('../kernel/base/error_text', [error_lines/3, print_error/2]).
-:- use_module('../kernel/base/names', [must_be_name/2]).
+:- use_module('../kernel/base/names', [counted/3, must_be_name/2]).
 :- use_module('../kernel/base/options', [check_options/2]).
 :- use_module('../kernel/base/own_thread', [in_own_thread/1]).
 :- use_module('../kernel/base/server',
@@ -279,9 +279,11 @@ prolog:message(typhon(log_not_written(File, Error))) -->
     reason(Error),
     [ nl, 'Its events are lost until it can.'-[] ].
 prolog:message(typhon(log_written_again(File, Count))) -->
-    [ 'The log ~w is written again; ~D events were lost'-[File, Count] ].
+    { counted(Count, event, Lost) },
+    [ 'The log ~w is written again, without ~w'-[File, Lost] ].
 prolog:message(typhon(log_lost(File, Count))) -->
-    [ 'The log ~w ends; ~D events were lost'-[File, Count] ].
+    { counted(Count, event, Lost) },
+    [ 'The log ~w ends, without ~w'-[File, Lost] ].
 
 reason(error(io_error(_, _), context(_, Text))) -->
     { atomic(Text) },

@@ -19,7 +19,8 @@ networks and of the log have the texts of their own messages.
               [address_parts/3, host_resolve/2]).
 :- use_module(administration, [host_property/2]).
 :- use_module('../kernel/base/names',
-              [names/2, names_joined/3, names_listed/2, names_proposed/3]).
+              [ counted/3, names/2, names_joined/3, names_listed/2,
+                names_proposed/3 ]).
 :- use_module('../kernel/travel', [agent_outcome/2]).
 :- use_module(event_text, [event_lines/3, short_name/2]).
 
@@ -267,8 +268,9 @@ prolog:message(typhon(log_unheard(Endpoint))) -->
     reason(Endpoint),
     [ '. Events are not logged until it does'-[] ].
 prolog:message(typhon(log_heard(Endpoint, Count))) -->
-    [ 'The log server at ~w answers again: ~D events are not in the log'-
-      [Endpoint, Count] ].
+    { counted(Count, event, Lost) },
+    [ 'The log server at ~w answers again; the log is without ~w'-
+      [Endpoint, Lost] ].
 prolog:message(typhon(traced(Agent, Host, What))) -->
     happened(Agent, Host),
     event_lines(What).
@@ -297,9 +299,10 @@ prolog:message(typhon(checked(Program, 0, 0, 0))) -->
     !,
     [ '~p is in order'-[Program] ].
 prolog:message(typhon(checked(Program, Errors, Doubts, Undefined))) -->
-    [ '~p: ~d errors, '-[Program, Errors] ],
+    { counted(Errors, error, Wrong), counted(Undefined, call, Calls) },
+    [ '~p: ~w, '-[Program, Wrong] ],
     doubts(Doubts),
-    [ '~d calls of what others must define'-[Undefined] ].
+    [ '~w of what others must define'-[Calls] ].
 prolog:message(typhon(place_reloaded(Place, File))) -->
     { host_property(Host, place(Place)) -> true ; Host = Place },
     [ '~w is reloaded into the place of ~w'-[File, Host] ].
@@ -312,7 +315,7 @@ prolog:message(typhon(run_failed(Agent))) -->
     [ 'The step of agent ~w was not completed'-[Agent] ].
 
 doubts(0) --> !.
-doubts(N) --> [ '~d warnings, '-[N] ].
+doubts(N) --> { counted(N, warning, Text) }, [ '~w, '-[Text] ].
 
 happened(Agent, Host) -->
     { short_name(Agent, Name),

@@ -11,6 +11,7 @@
 :- use_module('../kernel/lifecycle', [agent_answer/3]).
 :- use_module(administration, [agent_property/2]).
 :- autoload('source_view/clause_location', [body_list/2]).
+:- use_module('../kernel/base/names', [counted/3]).
 :- autoload('source_view/variable_names',
             [ clause_bindings/3, goals_bindings/4, goals_places/3,
               name_goal/4 ]).
@@ -53,7 +54,8 @@ about(Agent, Properties) :-
     memberchk(state(State), Properties),
     memberchk(hops(Hops), Properties),
     functor(State, Word, _),
-    format_shown('% ~w~n% on ~w, ~w, ~D hops~n~n', [Agent, Host, Word, Hops]).
+    counted(Hops, hop, Count),
+    format_shown('% ~w~n% on ~w, ~w, ~w~n~n', [Agent, Host, Word, Count]).
 
 %!  goals_shown(+Agent, +Facts, +Goals, -Shown, -Text:string) is det.
 %

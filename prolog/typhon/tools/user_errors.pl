@@ -153,8 +153,8 @@ is_raised(Context) :-
                 *******************************/
 
 %   cause(+Formal, +Call, -Argument, -Variable) is semidet: Argument is the name
-%   of the argument of Call that caused Formal, and Variable that of its variable
-%   at the top level, if that has a value from an earlier query.
+%   of the argument of Call that caused Formal, Variable that of its variable at
+%   the top level if an earlier query has bound this name, else ''.
 
 cause(Formal, Call, Name, Variable) :-
     \+ \+ culprit(Formal, Call, _),

@@ -110,6 +110,12 @@ test(existing_robot_does_not_hide_the_error,
 
 :- begin_tests(names).
 
+test(numbers_have_the_noun_that_they_need,
+     Texts == ['1 host', '0 hosts', '2 processes', '1 process', '1,200 hops']) :-
+    findall(Text, ( member(Count-Noun, [ 1-host, 0-host, 2-process, 1-process,
+                                         1200-hop ]),
+                    typhon_names:counted(Count, Noun, Text) ), Texts).
+
 test(topology) :-
     raises(network_start(rnig(4), _, []),
            ["no topology rnig(4) (did you mean ring(N)?)", "grid(Rows,Cols)"]).

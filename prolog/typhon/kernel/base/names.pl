@@ -5,7 +5,8 @@
             names_proposed/3,           % +Name, +Names, -Text
             names_listed/2,             % +Names, -Text
             names_joined/3,             % +Names, +Separator, -Text
-            names_some/3                % +Names, +Most, -Text
+            names_some/3,               % +Names, +Most, -Text
+            counted/3                   % +Count, +Noun, -Text
           ]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(error), [must_be/2]).
@@ -148,6 +149,17 @@ names_some(Names, Most, Text) :-
         format(atom(Text), '~w and ~D more', [Listed, More])
     ;   names_joined(Names, ', ', Text)
     ).
+
+%!  counted(+Count:integer, +Noun, -Text:atom) is det.
+%
+%   Text is Count with Noun in the number that it needs: `1 host`, `2 hosts`.
+
+counted(1, Noun, Text) :-
+    !,
+    atom_concat('1 ', Noun, Text).
+counted(Count, Noun, Text) :-
+    ( sub_atom(Noun, _, _, 0, ss) -> End = es ; End = s ),
+    format(atom(Text), '~D ~w~w', [Count, Noun, End]).
 
 %   name_text(+Name, -Text): ring('N') as ring(N), state(S) as state(_).
 

@@ -27,6 +27,7 @@ returns its own.
 :- autoload(library(aggregate), [aggregate_all/3]).
 :- use_module(library(error), [syntax_error/1]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../base/names', [counted/3]).
 :- use_module(library(pairs), [group_pairs_by_key/2, pairs_keys_values/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- autoload(library(socket), [tcp_accept/3]).
@@ -300,8 +301,9 @@ prolog:message(typhon(endpoint, turned_away(Ip, Why))) -->
     [ 'Endpoint: refused a client at ~w: '-[Ip] ],
     why(Why).
 prolog:message(typhon(endpoint, turned_away(Groups))) -->
-    { aggregate_all(sum(Count), member(Count-_, Groups), Sum) },
-    [ 'Endpoint: refused ~D more clients:'-[Sum] ],
+    { aggregate_all(sum(Count), member(Count-_, Groups), Sum),
+      counted(Sum, 'more client', Clients) },
+    [ 'Endpoint: refused ~w:'-[Clients] ],
     groups(Groups).
 
 groups([]) -->

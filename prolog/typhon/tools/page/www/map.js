@@ -8,7 +8,7 @@
 import { arrange, Force, LAYOUTS, recognize } from './layout.js';
 import { onTheme, Palette, paperPalette, legend } from './palette.js';
 import { cut, Scene } from './mapscene.js';
-import { byName, found, shortName } from './names.js';
+import { byName, counted, found, shortName } from './names.js';
 import {
   button, choice, element, fillChoice, fitCanvas, onSize, pointers,
 } from './dom.js';
@@ -491,7 +491,7 @@ class MapView extends Picture {
     const agent = this.store.agents.get(agentId);
     if (agent)
       return `${agent.name}, ${agent.program}, ${agent.fault || agent.status}, `
-        + `on ${shortName(agent.host)}, ${agent.hops} hops`;
+        + `on ${shortName(agent.host)}, ${counted(agent.hops, 'hop')}`;
     const host = this.store.hosts.get(hostId);
     if (!host) return '';
     const links = [...host.links.keys()].map(shortName).sort(byName);
@@ -499,7 +499,7 @@ class MapView extends Picture {
       : links.join(' ') || 'no host';
     const value = this.store.overlays.get(this.scene.overlay)?.values.get(hostId);
     return `${host.name} (${host.process}), ${host.state}, `
-      + `${host.agents.size} agents, linked to ${shown}`
+      + `${counted(host.agents.size, 'agent')}, linked to ${shown}`
       + (value === undefined ? '' : `, ${this.scene.overlay}: ${value}`);
   }
 

@@ -42,6 +42,11 @@ export const programGuess = name => {
   return dot < 0 ? name : name.slice(0, dot);
 };
 
+// '1 host', '2 hosts'.
+export function counted(count, noun) {
+  return `${count} ${noun}${count === 1 ? '' : noun.endsWith('ss') ? 'es' : 's'}`;
+}
+
 // Round times along an axis, and their texts.
 
 export function timeTicks(from, to, count) {

@@ -4,7 +4,7 @@ import { button, element } from './dom.js';
 import {
   dialog, field, quoted, readFile, select, sure,
 } from './forms.js';
-import { byName, shortName } from './names.js';
+import { byName, counted, shortName } from './names.js';
 import { download } from './svg.js';
 
 export const hostsThere = app => [...app.store.hosts.values()]
@@ -235,7 +235,8 @@ async function endNetwork(app) {
     return;
   }
   const which = select('Network', networks.map(({ name, hosts, processes }) =>
-    [name, `${name}: ${hosts.length} hosts, ${processes.length || 1} processes`]));
+    [name, `${name}: ${counted(hosts.length, 'host')}, `
+      + counted(processes.length || 1, 'process')]));
   dialog('End a network', [which], 'End it', async () => {
     await order(app, { do: 'network_stop', network: which.input.value },
       `${which.input.value} has ended`);
