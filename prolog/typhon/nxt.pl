@@ -15,6 +15,7 @@ with pyserial.  Nothing is defined here: see the modules in bridges/nxt/.
   | the names of SWI-PRO-NXT    | typhon/bridges/nxt/swi_pro_nxt |
 */
 
+:- use_module(bridges/common/error_texts, []).
 :- use_module(tools/user_errors, [user_errors/1]).
 :- use_module(tools/old_settings, []).
 :- reexport('bridges/nxt/brick').

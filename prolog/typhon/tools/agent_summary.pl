@@ -45,7 +45,9 @@ agent_doing(Status, _, Host, Doing) :-
 doing(ready, _, running).
 doing(obeying, _, running).
 doing(arriving, _, in_transit).
+doing(sleeping(inf), _, sleeping).
 doing(sleeping(Until), Host, Doing) :-
+    number(Until),
     time_left(Until, Host, Left),
     format(atom(Doing), 'sleeping, ~w', [Left]).
 doing(waiting(Pattern, Until), Host, Doing) :-

@@ -22,6 +22,7 @@
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/base/options', [check_name/2]).
 :- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
+:- use_module(error_texts, []).
 :- autoload(subscribers, [subscribers_forget/2]).
 
 /** <module> Starting and stopping bridges

@@ -216,15 +216,6 @@ failure(stuck, Name, _, helper_died(stuck, Name), _).
 failure(closed, Name, _, existence_error(helper, Name), _).
 failure(error(Formal, context(_, Text)), _, _, Formal, Text).
 
-prolog:error_message(existence_error(python, Python)) -->
-    [ 'There is no Python ~w (install python3, or set \c
-       typhon_helper_process:python)'-[Python] ].
-prolog:error_message(existence_error(helper, Name)) -->
-    [ 'There is no helper ~p'-[Name] ].
 prolog:error_message(timeout_error(Request, Name)) -->
     { helper(_, _, _, Name) },
     [ 'The helper ~p did not answer ~p in time'-[Name, Request] ].
-prolog:error_message(helper_died(Status, Name)) -->
-    [ 'The helper ~p ended: ~p'-[Name, Status] ].
-prolog:error_message(helper_error(Kind, Name)) -->
-    [ 'The helper ~p reports ~w'-[Name, Kind] ].

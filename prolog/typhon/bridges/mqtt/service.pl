@@ -342,17 +342,3 @@ typhon_subscribers:wanted(mqtt, Host, mqtt(Filter, Kind), Wanted) :-
 
 wanted_request(true, subscribe, _{qos:2}).
 wanted_request(false, unsubscribe, _{}).
-
-prolog:error_message(mqtt_error(Problem, Host)) -->
-    { problem(Problem, Text) },
-    [ 'MQTT on ~w: ~w'-[Host, Text] ].
-prolog:error_message(existence_error(python_module, paho)) -->
-    [ 'This Python has no paho-mqtt (install it: apt install \c
-       python3-paho-mqtt, or pip install paho-mqtt)' ].
-prolog:error_message(timeout_error(mqtt(What), Host)) -->
-    [ 'MQTT on ~w: the broker has not answered ~w in time'-[Host, What] ].
-
-problem(unreachable, 'the broker cannot be reached').
-problem(refused, 'the broker refuses the connection').
-problem(tls, 'TLS cannot be used').
-problem(failed, 'the client library raises an exception').

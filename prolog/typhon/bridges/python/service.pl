@@ -234,8 +234,3 @@ formal("timeout", _, Host, Request, timeout_error(python(What), Host)) :-
     ->  What = Function
     ;   get_dict(do, Request, What)
     ).
-
-prolog:error_message(python_error(Class, Message)) -->
-    [ 'Python: ~w: ~w'-[Class, Message] ].
-prolog:error_message(timeout_error(python(What), Host)) -->
-    [ 'Python on ~w has not completed ~w in time'-[Host, What] ].

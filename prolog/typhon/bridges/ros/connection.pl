@@ -301,7 +301,3 @@ formal("wrong_value", Dict, type_error(ros_field(Field, Type), Value)) :-
 name(Key, Dict, Atom) :-
     get_dict(Key, Dict, Text),
     atom_string(Atom, Text).
-
-prolog:error_message(existence_error(ros_python, File)) -->
-    [ 'There is no Python with rclpy at ~w (run make tools-ros to \c
-       install it)'-[File] ].

@@ -205,32 +205,3 @@ prolog:message(typhon(ros_ignored(Host, What))) -->
        only counted)'-[Host, What] ].
 prolog:message(typhon(ros_complaint(Host, Text))) -->
     [ 'ROS reports to ~w: ~w'-[Host, Text] ].
-
-prolog:error_message(existence_error(ros, Host)) -->
-    [ '~w has no ROS (start it by ros_start/3)'-[Host] ].
-prolog:error_message(existence_error(ros_type, Type)) -->
-    [ 'There is no type ~w among those that are installed'-[Type] ].
-prolog:error_message(existence_error(ros_topic, Topic)) -->
-    [ 'There is no topic ~w'-[Topic] ].
-prolog:error_message(existence_error(ros_service, Service)) -->
-    [ 'There is no service ~w'-[Service] ].
-prolog:error_message(existence_error(ros_field, Field)) -->
-    [ 'The message has no field ~w'-[Field] ].
-prolog:error_message(existence_error(ros_subscription, Topic)) -->
-    [ 'This agent has no subscription to ~w'-[Topic] ].
-prolog:error_message(type_error(ros_field(Field, Type), Value)) -->
-    [ 'The field ~w is ~w, not ~p'-[Field, Type, Value] ].
-prolog:error_message(permission_error(use, ros_topic(Type), Topic)) -->
-    [ '~w is in use here, with messages ~w'-[Topic, Type] ].
-prolog:error_message(permission_error(offer, ros_service, Service)) -->
-    [ 'An agent here offers ~w'-[Service] ].
-prolog:error_message(timeout_error(ros_call, Service)) -->
-    [ '~w did not answer in time'-[Service] ].
-prolog:error_message(ros_error(refused, Name)) -->
-    [ '~w has refused'-[Name] ].
-prolog:error_message(ros_error(not_connected, Host)) -->
-    [ '~w is not connected to ROS now'-[Host] ].
-prolog:error_message(ros_error(lost, Host)) -->
-    [ '~w has lost ROS meanwhile'-[Host] ].
-prolog:error_message(resource_error(ros_queue)) -->
-    [ 'The send queue to ROS is full' ].

@@ -302,5 +302,6 @@ wake_if_mail(Id, Goals) :-
 
 alarm(waiting(_, Until), Until, until(Until)) :-
     number(Until).
-alarm(sleeping(Until), Until, until(Until)).
+alarm(sleeping(Until), Until, until(Until)) :-
+    number(Until).
 alarm(leaving(_, At), At, leave).

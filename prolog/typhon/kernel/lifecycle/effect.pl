@@ -78,6 +78,11 @@ effect(clone(Host, Role), Hole, Goals, Id-Here, Next) :-
         hop_clone(Id, Dest, CloneId, Role, Hole, Goals),
         Next = stop
     ).
+effect(sleep(Seconds), sleep(inf), Goals, Id-_, stop) :-
+    infinite(Seconds),
+    !,
+    can_be_kept(Goals),
+    with_agent(Id, agent_rest(Id, sleeping(inf), Goals)).
 effect(sleep(Seconds), Hole, Goals, Id-Here, Next) :-
     must_be(number, Seconds),
     host_time(Here, Now),

@@ -350,8 +350,9 @@ clone(_, _) :-
 
 %!  sleep(+Seconds) is det.
 %
-%   Go on after Seconds of host time, at once if Seconds is negative.  This is
-%   not the sleep/1 of the system: an agent that sleeps occupies no thread.
+%   Go on after Seconds of host time, at once if Seconds is negative, never if it
+%   is `inf`.  This is not the sleep/1 of the system: an agent that sleeps
+%   occupies no thread.
 
 %!  receive(?Message) is det.
 %!  receive(?Message, +Timeout) is semidet.

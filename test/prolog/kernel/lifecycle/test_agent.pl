@@ -454,6 +454,16 @@ test(sleepers_wake_in_order, F == [1,2,3,4,5]) :-
                                      A, [facts([s(Until),r(N)])]) ), As),
                  maplist(joined, As, _),
                  remote(alpha, findall(N, sense(up(N)), F)) )).
+test(sleep_without_end, Count-O == 2-timeout) :-
+    with_hosts([alpha],
+               ( create([(main :- sleep(inf))], A),
+                 create([(main :- X is inf, sleep(X))], B),
+                 wait_state(A, sleeping),
+                 wait_state(B, sleeping),
+                 with_output_to(string(Table), agents),
+                 findall(x, sub_string(Table, _, _, _, "sleeping  "), Xs),
+                 length(Xs, Count),
+                 agent_join(A, O, 0) )).
 test(sleep_for_no_time, O == done) :-
     ends([(main :- sleep(0), sleep(-1))], O, []).
 test(invalid_sleep_time, true(O = raised(error(type_error(_, soon), _)))) :-

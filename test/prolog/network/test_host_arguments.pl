@@ -1,0 +1,122 @@
+:- module(test_host_arguments, []).
+:- use_module(library(plunit)).
+:- use_module('../../lib/common').
+:- use_module('../../lib/fixtures').
+:- use_module(library(apply)).
+:- use_module(library(lists)).
+:- use_module(library(typhon)).
+
+/** <module> Hosts of own networks as arguments
+
+A host of a child process is named like one of this process.
+*/
+
+%   takes(+Host, -Goal): Goal has the argument Host, at the position that
+%   host_position/2 names.  The other host is inn, the agent bob.
+
+takes(H, agent_create(clauses([(:- agent(a)), main]), _, [host(H)])).
+takes(H, agent_move(bob, H)).
+takes(H, agent_move(bob, H, [wait(10)])).
+takes(H, agent_load(File, _, [host(H)])) :- nb_getval(test_saved, File).
+takes(H, remote(H, neighbours(_))).
+takes(H, host_property(H, load(_))).
+takes(H, host_property(H, neighbours(_))).
+takes(H, host_change(H, capacity(7))).
+takes(H, link(inn, H)).
+takes(H, link(inn, H, [cost(2)])).
+takes(H, link(H, inn)).
+takes(H, unlink(H, inn)).
+takes(H, unlink(inn, H)).
+takes(H, watched(H)).
+takes(H, watched([inn,H])).
+takes(H, shown(H)).
+takes(H, bridged(fipa_start(H, 'http://localhost:0', []), fipa_stop(H))).
+takes(H, python_start(H, '/no/such.py', [])).
+takes(H, python_stop(H)).
+takes(H, mqtt_start(H, 'mqtt://localhost:1', [wait(false)])).
+takes(H, mqtt_stop(H)).
+takes(H, ros_start(H, 'ws://localhost:1', [])).
+takes(H, ros_stop(H)).
+takes(H, ros_property(H, _)).
+takes(H, host_stop(H)).
+
+:- public watched/1, shown/1, bridged/2.
+
+watched(Hosts) :-
+    watch(Hosts, [_]>>true, Watch),
+    unwatch(Watch).
+
+shown(Host) :-
+    page_start([host(Host), port(0)]),
+    page_stop.
+
+bridged(Start, Stop) :-
+    call(Start),
+    call(Stop).
+
+%   These end with an error that is not about the host.
+
+ends(Goal, Formal) :-
+    functor(Goal, Name, _),
+    ends_with(Name, Formal).
+
+ends_with(python_start, existence_error(source_sink, _)).
+ends_with(python_stop, existence_error(python, _)).
+ends_with(mqtt_start, existence_error(python_module, paho)).
+ends_with(mqtt_stop, existence_error(mqtt, _)).
+ends_with(ros_start, socket_error(_, _)).
+ends_with(ros_stop, existence_error(ros, _)).
+ends_with(host_stop, existence_error(host, _)).
+
+with_network(Goal) :-
+    no_leaks(setup_call_cleanup(
+                 network_start(edges([inn-mill, mill-farm]), Network,
+                               [processes(3)]),
+                 ( create([on_message(_, _)], _, [name(bob), host(inn)]),
+                   create([on_message(_, _)], Eve, [host(inn)]),
+                   tmp_file(saved, File),
+                   agent_save(Eve, File),
+                   nb_setval(test_saved, File),
+                   call(Goal) ),
+                 network_stop(Network))).
+
+outcome(Goal, Outcome) :-
+    (   catch(Goal, error(Formal, Context), true)
+    ->  ( var(Formal) -> Outcome = true
+        ; Outcome = error(Formal, Context) )
+    ;   Outcome = false
+    ).
+
+text(Error, Text) :-
+    '$messages':translate_message(Error, Lines, []),
+    with_output_to(string(Text),
+                   print_message_lines(current_output, '', Lines)).
+
+works(Goal) :-
+    copy_term(Goal, Copy),
+    outcome(Copy, Outcome),
+    (   Outcome = error(Formal, _)
+    ->  assertion(ends(Goal, Formal)),
+        text(Outcome, Text),
+        assertion(\+ sub_string(Text, _, _, _, "Unknown error")),
+        ( Goal = host_stop(_)
+        -> assertion(sub_string(Text, _, _, _, "remote('farm@")) ; true )
+    ;   Goal = ros_property(_, _)
+    ->  assertion(Outcome == false)
+    ;   assertion(Goal-Outcome = Goal-true)
+    ).
+
+is_unknown(Goal) :-
+    outcome(Goal, Outcome),
+    assertion(Outcome = error(existence_error(host, fram), _)),
+    text(Outcome, Text),
+    assertion(sub_string(Text, _, _, _, "(did you mean farm")).
+
+:- begin_tests(host_arguments).
+
+test(hosts_of_child_processes_are_named_as_those_here) :-
+    with_network(forall(takes(farm, Goal), works(Goal))).
+test(similar_name_is_suggested) :-
+    with_network(forall(takes(fram, Goal), is_unknown(Goal))).
+
+:- end_tests(host_arguments).
