@@ -120,10 +120,16 @@ seen_from(Host, Agents) :-
 
 only([Agent], _, _, _, Agent) :-
     !.
+only(Ids, _, _, _, Agent) :-
+    exclude(is_faulty, Ids, [Agent]),   % a supervisor has replaced the others
+    !.
 only([], Name, Host, Agents, _) :-
     usage(no_agent(Name, Host, Agents)).
 only(Ids, Name, _, _, _) :-
     usage(several_agents(Name, Ids)).
+
+is_faulty(Agent) :-
+    agent_property(Agent, state(faulty(_))).
 
 %!  host_now(+Host, -Address) is det.
 %

@@ -271,7 +271,8 @@ agent_met(Id) :-
 
 %!  agent_named(+Agent, -Id) is det.
 %
-%   Id is Agent itself, or the only agent known here that is called Agent.
+%   Id is Agent itself, or the only agent known here that is called Agent, or
+%   the only one of these that is not faulty.
 %
 %   @error existence_error(agent, Agent), with the id of the agent if Agent is
 %          the name of an agent that has ended
@@ -333,8 +334,18 @@ the_only([Id], _, Id) :-
     !.
 the_only([], Name, _) :-
     existence_error(agent, Name).
+the_only(Ids, _, Id) :-
+    exclude(is_faulty, Ids, [Id]),
+    !.
 the_only([Id|Ids], Name, _) :-
     throw(error(ambiguous_agent(Name, [Id|Ids]), _)).
+
+%   A faulty agent is kept when a supervisor replaces it.
+
+is_faulty(Id) :-
+    catch(agent_ask(Id, properties, 10, answer(Properties)), error(_, _),
+          fail),
+    memberchk(state(faulty(_)), Properties).
 
 %   This process gets no report when an agent that it created elsewhere ends.
 

@@ -20,6 +20,51 @@ bob(Agent, Options) :-
                  Agent, Options),
     wait_state(Agent, resident).
 
+%   The message crash leaves a faulty agent.
+
+replaced :-
+    Program = clauses([ (:- agent(bob, [state([got/1])])),
+                        (on_message(_, crash) :- throw(crash)),
+                        (on_message(_, X) :- assertz(got(X))) ]),
+    agent_create(Program, First, [name(bob), host(alpha)]),
+    agent_send(bob, crash),
+    wait_state(First, faulty(_)),
+    agent_create(Program, Second, [name(bob), host(beta)]),
+    agent_send(bob, hello),
+    wait_until(fact_of(Second, got(hello)), 5),
+    assertion(agent_property(bob, facts([got(hello)]))),
+    assertion(agent_property(First, state(faulty(_)))),
+    agent_move(bob, alpha, [wait(5)]),
+    address(alpha, Alpha),
+    assertion(agent_property(Second, host(Alpha))),
+    agent_dispose(bob),
+    assertion(agent_join(Second, disposed, 5)).
+
+supervised :-
+    Worker = clauses([ (:- agent(worker, [state([got/1])])),
+                       (on_message(_, crash) :- throw(crash)),
+                       (on_message(_, X) :- assertz(got(X))) ]),
+    agent_create(agents(supervisor), Supervisor,
+                 [ host(alpha),
+                   facts([child(worker, Worker, []), intensity(9, 1)]) ]),
+    wait_until(( called(worker, One), state_of(One, resident) ), 10),
+    forall(between(1, 3, _),
+           ( findall(Id, called(worker, Id), Before),
+             agent_send(worker, crash),
+             wait_until(( called(worker, New), \+ memberchk(New, Before),
+                          state_of(New, resident) ), 10) )),
+    agent_send(worker, hello),
+    wait_until(agent_property(worker, facts([got(hello)])), 5),
+    with_output_to(string(Listing), agent_listing(worker)),
+    assertion(sub_string(Listing, _, _, _, "got(hello)")),
+    agent_send(Supervisor, stop),
+    assertion(agent_join(Supervisor, done, 10)).
+
+called(Name, Id) :-
+    agent_property(Id, home(_)),
+    atom_concat(Name, '.', Begin),
+    sub_atom(Id, 0, _, _, Begin).
+
 :- begin_tests(names).
 
 test(unique_name_is_accepted) :-
@@ -73,6 +118,10 @@ test(ambiguous_name_lists_both) :-
                  agent_dispose(A),
                  agent_send(bob, only_b),
                  wait_until(fact_of(B, got(only_b)), 5) )).
+test(living_agent_has_the_name_of_faulty_ones) :-
+    with_hosts([alpha, beta], capturing(replaced, _)).
+test(restarted_worker_has_its_name) :-
+    with_hosts([alpha, beta], capturing(supervised, _)).
 test(unknown_name,
      [ forall(member(Goal, [ agent_send(tim, x), agent_dispose(tim),
                              agent_join(tim, _, 1),
