@@ -21,6 +21,10 @@
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(typhon)).
 
+:- multifile course:criterion/3.
+
+course:criterion(broken, broken, test_course:no_such_check).
+
 solution(Exercise, File) :-
     format(atom(Relative), 'doc/course/solutions/~w.pl', [Exercise]),
     project_file(Relative, File).
@@ -65,9 +69,31 @@ mistake(warden, "Agent-Outcome|Ends", "Agent-done|Ends").
 mistake(foreman, ", follows(true)", "").
 mistake(customer, "radius(inf)", "radius(1)").
 
-mistaken(Exercise, Dir) :-
+%   Programs that come to the right result in another way than is asked for.
+
+mistake(round, "    move(Host),\n", "").
+mistake(richest, "neighbours(Hosts)", "neighbours([Host|_]), Hosts = [Host]").
+mistake(claim, "leave(owner(Me)),", "true,").
+mistake(forager, "search(60, 0)", "search(500, 0)").
+mistake(forager, "search(60, 0)", "search(20, 0)").
+mistake(brigade, "hops(Hops),", "Hops = 0,").
+mistake(manager, "receive(Best-finished(Task)),", "").
+mistake(manager, "Deadline is Now+5", "Deadline is Now+50").
+mistake(shopper, "leave(done(Task)),", "true,").
+mistake(patient, "Pause > 64", "Pause > 500").
+mistake(patient, "Pause > 64", "Pause > 32").
+mistake(guard, "receive(_-Message, 5)", "receive(_-Message, 50)").
+mistake(patrol, "leave(patrolled)", "true").
+mistake(warden, "forall(member(Agent, Agents), monitor(Agent))", "true").
+mistake(foreman, "most(Restarts)", "most(Most), Restarts > Most").
+mistake(customer, "monitor(Clerk),\n    send(Clerk, order(Thing)),",
+        "forall(member(Other-_, [Clerk-_|More]), \c
+                ( monitor(Other), send(Other, order(Thing)) )),").
+mistake(customer, "receive(_-Message)",
+        "(receive(_-Message, 20) -> true ; Message = late)").
+
+mistaken(Exercise, Right-Wrong, Dir) :-
     solution(Exercise, Solution),
-    mistake(Exercise, Right, Wrong),
     read_file_to_string(Solution, Text, [encoding(utf8)]),
     atomic_list_concat(Parts, Right, Text),
     assertion(Parts = [_,_|_]),
@@ -83,6 +109,11 @@ write_program(Dir, Base, Text, File) :-
     setup_call_cleanup(open(File, write, Out, [encoding(utf8)]),
                        write(Out, Text),
                        close(Out)).
+
+not_a_program(Found, Dir) :-
+    write_program(Dir, 'round.pl', "main :- foo(.\n", File),
+    no_leaks(capturing(once(exercise_verdict(round, File,
+                                             verdict(_, Found))), _)).
 
                 /*******************************
                 *          THE COMMAND         *
@@ -151,8 +182,8 @@ test(solutions_give_no_warnings,
             Said).
 
 test(programs_with_a_mistake_fail,
-     [forall(mistake(Exercise, _, _)), nondet]) :-
-    with_tmp_dir(mistaken(Exercise)).
+     [forall(mistake(Exercise, Right, Wrong)), nondet]) :-
+    with_tmp_dir(mistaken(Exercise, Right-Wrong)).
 
 test(each_exercise_is_in_its_lesson, Missing == []) :-
     findall(Exercise,
@@ -168,6 +199,23 @@ test(each_exercise_is_in_its_lesson, Missing == []) :-
 test(hand_ins_are_marked_in_a_table) :-
     handed_in(is_marked).
 
+test(lessons_have_two_mistakes_each, Few == []) :-
+    findall(Lesson,
+            ( between(1, 7, Lesson),
+              findall(x, ( exercise(Exercise, Lesson),
+                           mistake(Exercise, _, _) ), Mistakes),
+              \+ Mistakes = [_,_|_] ),
+            Few).
+test(missing_file_is_no_mistake_of_a_program) :-
+    check(['/no/such/round.pl'], Status, Out, Err),
+    assertion(Status-Out == exit(2)-""),
+    assertion(sub_string(Err, _, _, _, "There is no file /no/such/round.pl")).
+test(mistake_in_a_check_is_its_own,
+     [true(Found = itself(_)), nondet]) :-
+    solution(round, File),
+    exercise_verdict(broken, File, verdict(broken, Found)).
+test(refused_program_is_a_mistake_of_it, true(string(Found))) :-
+    with_tmp_dir(not_a_program(Found)).
 test(endless_program_is_stopped) :-
     handed_in(is_stopped).
 test(a_program_that_fails_is_reported) :-

@@ -82,36 +82,46 @@ course:criterion(manager, 'rejects all other offers',
                  course_contract_net:rejects_others).
 course:criterion(manager, 'does not wait for silent contractors',
                  course_contract_net:does_not_wait).
+course:criterion(manager, 'waits for the end of the work',
+                 course_contract_net:waits_for_work).
 course:criterion(manager, 'says so if no offer comes',
                  course_contract_net:no_offer).
 course:criterion(manager, 'takes no offer for another task',
                  course_contract_net:not_another_task).
 
 awards_lowest(File) :-
-    managed(File, [9, 4, 6], awarded(task7, 2, 4), _).
+    managed(File, [9, 4, 6], 0-1000, awarded(task7, 2, 4), _).
 
 rejects_others(File) :-
-    managed(File, [9, 4, 6], _, Rejected),
+    managed(File, [9, 4, 6], 0-1000, _, Rejected),
     expect('the offers that were rejected', Rejected, [1, 3]).
 
+%   Five seconds for offers, three for the work.
+
 does_not_wait(File) :-
-    managed(File, [silent, 5, refuse], awarded(task7, 2, 5), _).
+    managed(File, [silent, 5, refuse], 0-10, awarded(task7, 2, 5), _).
+
+waits_for_work(File) :-
+    managed(File, [9, 4, 6], 3-1000, _, _).
 
 no_offer(File) :-
-    managed(File, [silent, refuse], no_offer(task7), _).
+    managed(File, [silent, refuse], 0-7, no_offer(task7), _).
 
 not_another_task(File) :-
-    managed(File, [stale(1), 5], awarded(task7, 2, 5), _).
+    managed(File, [stale(1), 5], 0-1000, awarded(task7, 2, 5), _).
 
-managed(File, Kinds, Expected, Rejected) :-
-    in_network(star(4), [], manage(File, Kinds, Expected, Rejected)).
+%   managed(+File, +Kinds, +Least-Most, ?Expected, -Rejected): the manager ends
+%   between these times.
 
-manage(File, Kinds, Expected, Rejected, [Home|Hosts]) :-
+managed(File, Kinds, Times, Expected, Rejected) :-
+    in_network(star(4), [], manage(File, Kinds, Times, Expected, Rejected)).
+
+manage(File, Kinds, Least-Most, Expected, Rejected, [Home|Hosts]) :-
     findall(Host-Kind, ( nth1(N, Kinds, Kind), nth1(N, Hosts, Host) ), Pairs),
     maplist(contractor, Pairs, Contractors),
     on_host(File, Home, [contractors(Contractors), task(task7, paint)],
             Manager),
-    ended(Manager, Result),
+    ended_between(Manager, Home, Least, Most, Result),
     result_names(Expected, Contractors, Named),
     expect('the result', Result, Named),
     time_passes(Home, 2),

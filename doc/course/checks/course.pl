@@ -6,6 +6,7 @@
             on_host/3,                  % +File, +Host, -Agent
             on_host/4,                  % +File, +Host, +Facts, -Agent
             ended/2,                    % +Agent, -Result
+            ended_between/5,            % +Agent, +Host, +Least, +Most, -Result
             arrived/2,                  % +Host, -Count
             time_passes/2,              % +Host, +Seconds
             facts_on/3,                 % +Host, +Template, -Facts
@@ -63,8 +64,8 @@ exercise(customer, 7).
 
 %!  exercise_verdict(+Exercise, +File, -Verdict) is nondet.
 %
-%   Verdict is verdict(Text, Found) for each criterion; Found is `ok`, or the
-%   reason why it does not hold.
+%   Verdict is verdict(Text, Found) for each criterion; Found is `ok`, the
+%   reason why it does not hold, or itself(Why) if the check does not work.
 
 exercise_verdict(Exercise, File, verdict(Text, Found)) :-
     criterion(Exercise, Text, Goal),
@@ -73,7 +74,19 @@ exercise_verdict(Exercise, File, verdict(Text, Found)) :-
 found(Goal, File, Found) :-
     catch(( call(Goal, File) -> Found = ok ; Found = "it does not" ),
           error(Formal, Context),
-          message(error(Formal, Context), Found)).
+          found_error(Formal, Context, Found)).
+
+%   Other errors than those of the program are mistakes of the check.
+
+found_error(course_refused(Error), _, Text) :-
+    !,
+    message(Error, Text).
+found_error(Formal, Context, Found) :-
+    message(error(Formal, Context), Text),
+    ( of_program(Formal) -> Found = Text ; Found = itself(Text) ).
+
+of_program(course_expected(_, _, _)).
+of_program(existence_error(agent, _)).  % it has ended too early
 
 message(Error, Text) :-
     phrase(prolog:translate_message(Error), Lines),
@@ -83,13 +96,14 @@ message(Error, Text) :-
 
 %!  in_network(+Topology, +Options, :Goal) is semidet.
 %
-%   Calls Goal(Hosts) once in a guarded network in virtual time.
+%   Calls Goal(Hosts) once in a guarded network in virtual time.  The quota of
+%   seconds is one of real time, which says nothing on a slow machine.
 
 in_network(Topology, Options0, Goal) :-
     merge_options(Options0,
                   [ clock(virtual), seed(1), log('/dev/null'),
                     hop_time(uniform(0.1, 0.2)),
-                    hosts([policy(guarded)]) ],
+                    hosts([policy(guarded), quota([seconds(100_000)])]) ],
                   Options),
     setup_call_cleanup(
         network_start(Topology, Network, Options),
@@ -106,7 +120,9 @@ on_host(File, Host, Agent) :-
     on_host(File, Host, [], Agent).
 
 on_host(File, Host, Facts, Agent) :-
-    agent_create(File, Agent, [host(Host), facts(Facts)]).
+    catch(agent_create(File, Agent, [host(Host), facts(Facts)]),
+          error(Formal, Context),
+          throw(error(course_refused(error(Formal, Context)), _))).
 
 %!  ended(+Agent, -Result) is det.
 %
@@ -117,7 +133,22 @@ on_host(File, Host, Facts, Agent) :-
 ended(Agent, Result) :-
     agent_join(Agent, Outcome, 10_000),
     expect('how it ends', Outcome, done),
-    agent_result(Agent, Result, 0).
+    catch(agent_result(Agent, Result, 0),
+          error(existence_error(result, _), _),
+          expect('the result', none, a_result)).
+
+%!  ended_between(+Agent, +Host, +Least, +Most, -Result) is det.
+%
+%   As ended/2; the time on Host is then between Least and Most.
+
+ended_between(Agent, Host, Least, Most, Result) :-
+    ended(Agent, Result),
+    remote(Host, now(Time)),
+    (   Time >= Least,
+        Time =< Most
+    ->  true
+    ;   expect('the time of its end', Time, between(Least, Most))
+    ).
 
 %!  arrived(+Host, -Count:integer) is det.
 %

@@ -80,10 +80,17 @@ food(Host, Food) :-
 ant_gives_up(File) :-
     in_network(ring(4), [], nothing_there(File)).
 
-nothing_there(File, [Nest|_]) :-
+nothing_there(File, [Nest|Hosts]) :-
     on_host(File, Nest, Ant),
     ended(Ant, Brought),
-    expect('what it says it brought', Brought, 0).
+    expect('what it says it brought', Brought, 0),
+    maplist(arrived, [Nest|Hosts], Counts),
+    sum_list(Counts, Count),
+    (   Count >= 60,
+        Count =< 62
+    ->  true
+    ;   expect('the number of hosts without food', Count, 60)
+    ).
 
                 /*******************************
                 *            BRIGADE           *

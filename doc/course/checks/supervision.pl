@@ -130,6 +130,10 @@ course:criterion(customer, 'orders from the nearest',
                  course_supervision:buys([near-sells, far-sells], near)).
 course:criterion(customer, 'turns to the next if one ends without an answer',
                  course_supervision:buys([near-fails, far-sells], far)).
+course:criterion(customer, 'orders from one at a time',
+                 course_supervision:orders([near-sells, far-sells], [near])).
+course:criterion(customer, 'waits for one that is slow',
+                 course_supervision:orders([near-slow, far-sells], [near])).
 course:criterion(customer, 'finds one that is far away',
                  course_supervision:buys([far-sells], far)).
 course:criterion(customer, 'ends if none sells',
@@ -150,16 +154,34 @@ customer(File, Clerks, From, [Home,Near,_,Far]) :-
     ;   expect('the result', Result, none)
     ).
 
+%   orders(+Clerks, +Asked, +File): only the clerks at Asked get an order.
+
+orders(Clerks, Asked, File) :-
+    Asked = [From],
+    in_network(line(4), [], customer_asks(File, Clerks, From, Asked)).
+
+customer_asks(File, Clerks, From, Asked, Hosts) :-
+    customer(File, Clerks, From, Hosts),
+    Hosts = [Home,Near,_,Far],
+    time_passes(Home, 5),
+    findall(Place, ( member(Place-Host, [near-Near, far-Far]),
+                     facts_on(Host, ordered, [_|_]) ), Found),
+    expect('the places of the agents that got an order', Found, Asked).
+
 clerk(Host, How) :-
     agent_create(clauses([ (:- agent(clerk, [state([how/1])])),
                            (main :- offer(shop(tea), []),
                                     receive(From-order(tea)),
+                                    leave(ordered),
                                     sleep(1),
                                     how(How),
                                     answer(How, From)),
                            (answer(sells, From) :-
                                 here(Here),
                                 send(From, sold(tea_from(Here)))),
+                           (answer(slow, From) :-
+                                sleep(100),
+                                answer(sells, From)),
                            (answer(fails, _) :- dispose)
                          ]),
                  _, [host(Host), facts([how(How)])]).
