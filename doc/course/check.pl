@@ -148,7 +148,7 @@ checked(Options, File, row(File, Exercise, Held, Of, Verdicts)) :-
 verdicts_of(File, Seconds, Verdicts) :-
     module_property(course_check, file(Here)),
     current_prolog_flag(executable, Swipl),
-    Late is 20*Seconds,
+    Late is 100*Seconds,
     setup_call_cleanup(
         process_create(path(sh), [ '-c', 'ulimit -t "$0"; exec "$@"', Seconds,
                                    Swipl, Here, '--', '--inside', File ],

@@ -330,6 +330,41 @@ differences(File, Terminal, Differences) :-
     blocks(File, Blocks),
     with_tmp_dir(run_blocks(Blocks, Terminal, Differences)).
 
+%   What users search for is the subject of a section, see test_site, too.
+
+asked_for(Word) :-
+    member(Word, [ license, backup, upgrade, uninstall, windows, macos,
+                   broadcast, contribute, bug ]).
+
+section_about(Word, Files) :-
+    project_file('doc/*.md', Pattern),
+    expand_file_name(Pattern, All),
+    findall(File, ( member(File, All),
+                    read_file_to_string(File, Text, [encoding(utf8)]),
+                    split_string(Text, "\n", "", Lines),
+                    about(Lines, Word) ), Files).
+
+%   The word is in a heading, or in the paragraphs below a heading that begins
+%   with its first letters: `Back up a journal`.
+
+about(Lines, Word) :-
+    sub_atom(Word, 0, 4, _, Stem),
+    append(_, [Heading|Below], Lines),
+    string_concat("#", Title, Heading),
+    string_lower(Title, Lower),
+    (   sub_string(Lower, _, _, _, Word)
+    ->  true
+    ;   sub_string(Lower, _, _, _, Stem)
+    ;   memberchk(Word, [broadcast]),
+        nth0(N, Below, Line),
+        N < 4,
+        sub_string(Line, _, _, _, Word)
+    ),
+    !.
+
+test(each_word_that_users_look_for_has_a_section,
+     [forall(asked_for(Word)), true(Files = [_|_])]) :-
+    section_about(Word, Files).
 test(sessions_answer_as_shown,
      [ condition(missing([python3], [])),
        forall(document_at(File, Terminal)),

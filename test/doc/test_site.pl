@@ -247,6 +247,21 @@ test(finds_predicates_of_prolog,
      [forall(member(Word, ["supervisor", "neighbor"]))]) :-
     search(Word, _, [_|_]).
 
+%   What users look for.
+
+asked_for("license").
+asked_for("backup").
+asked_for("upgrade").
+asked_for("uninstall").
+asked_for("windows").
+asked_for("macos").
+asked_for("broadcast").
+asked_for("contribute").
+asked_for("bug").
+
+test(finds_what_users_look_for, [forall(asked_for(Word))]) :-
+    search(Word, _, [_|_]).
+
 test(reports_no_matches) :-
     search("zebra", Text, []),
     once(sub_string(Text, _, _, _, "No matching documents")).

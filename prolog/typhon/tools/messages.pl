@@ -114,6 +114,14 @@ prolog:error_message(existence_error(endpoint, running)) -->
     [ 'This process has no host: start one with host_start/1'-[] ].
 prolog:error_message(existence_error(payload, Name)) -->
     [ 'There is no payload ~p'-[Name] ].
+prolog:error_message(move_refused(Name, unknown_host)) -->
+    { atom(Name), \+ sub_atom(Name, _, _, _, @) },
+    !,
+    [ '~w refuses to admit the agent: there is no host of that name in the \c
+       process of the agent'-[Name] ],
+    meant(host, Name),
+    [ '; for other processes let it carry the address, as \c
+       host_property(~q, address(A)) gives it'-[Name] ].
 prolog:error_message(move_refused(Host, Reason)) -->
     [ '~p refuses to admit the agent: '-[Host] ],
     refusal(Reason),

@@ -204,8 +204,8 @@ halves(Mail, Older, Newer) :-
 
 %!  mail_lost(+Formal, +Id, +Mail) is det.
 %
-%   Report that Mail cannot be delivered, here and to the process that sent it,
-%   unless Id has ended, which is normal.  A message whose sender is not an
+%   Report once that Mail cannot be delivered, in the process that sent it, or
+%   here if there is no connection to that, unless Id has ended, which is normal.  A message whose sender is not an
 %   agent, but a term such as fipa(Name), is returned to the bridge of the
 %   process that sent it.
 
@@ -216,8 +216,8 @@ mail_lost(Formal, Id, Mail) :-
     report_to_origins(Formal, Id, Elsewhere),
     (   ( Sent == [] ; agent_outcome(Id, _) )
     ->  true
-    ;   report(Formal, Id, Sent),
-        report_to_origins(Formal, Id, Sent)
+    ;   forall(of_origin(Sent, Origin, Lost),
+               report_once(Origin, Formal, Id, Lost))
     ).
 
 is_from_bridge(mail(_, From, _)) :-
@@ -240,17 +240,27 @@ given_back(Formal, Id, Mail) :-
     ).
 
 report_to_origins(Formal, Id, Mail) :-
-    findall(Origin, member(mail(Origin, _, _), Mail), Origins0),
-    sort(Origins0, Origins),
-    forall(( member(Origin, Origins), \+ endpoint_address(Origin) ),
-           scheduler_call(report_to_origin(Origin, Formal, Id, Mail))).
+    forall(of_origin(Mail, Origin, Lost),
+           scheduler_call(report_to_origin(Origin, Formal, Id, Lost))).
 
-report_to_origin(Origin, Formal, Id, Mail) :-
-    findall(mail(Origin, From, Message),
-            member(mail(Origin, From, Message), Mail), Lost),
+report_to_origin(Origin, Formal, Id, Lost) :-
     catch(endpoint_post(Origin, message, lost(Formal, Id, Lost)),
           error(_, _),
-          true).                        % it was reported here
+          true).
+
+of_origin(Mail, Origin, Lost) :-
+    findall(O, member(mail(O, _, _), Mail), Origins0),
+    sort(Origins0, Origins),
+    member(Origin, Origins),
+    findall(mail(Origin, From, Message),
+            member(mail(Origin, From, Message), Mail), Lost).
+
+report_once(Origin, Formal, Id, Lost) :-
+    \+ endpoint_address(Origin),
+    endpoint_post_up(Origin, message, lost(Formal, Id, Lost)),
+    !.
+report_once(_, Formal, Id, Lost) :-
+    report(Formal, Id, Lost).
 
 report(Formal, Id, [mail(_, From, Message)|More]) :-
     length(More, Others),
