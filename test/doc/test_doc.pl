@@ -348,7 +348,9 @@ section_about(Word, Files) :-
 %   with its first letters: `Back up a journal`.
 
 about(Lines, Word) :-
-    sub_atom(Word, 0, 4, _, Stem),
+    atom_length(Word, Length),
+    Most is min(4, Length),
+    sub_atom(Word, 0, Most, _, Stem),
     append(_, [Heading|Below], Lines),
     string_concat("#", Title, Heading),
     string_lower(Title, Lower),
