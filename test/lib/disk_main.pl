@@ -2,6 +2,7 @@
 :- use_module(common).
 :- use_module(failing_disk, [disk_fails/1, disk_heals/0]).
 :- use_module(stores).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/base/on_demand), [on_demand_load/2]).
 

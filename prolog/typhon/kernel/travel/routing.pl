@@ -205,9 +205,9 @@ halves(Mail, Older, Newer) :-
 %!  mail_lost(+Formal, +Id, +Mail) is det.
 %
 %   Report once that Mail cannot be delivered, in the process that sent it, or
-%   here if there is no connection to that, unless Id has ended, which is normal.  A message whose sender is not an
-%   agent, but a term such as fipa(Name), is returned to the bridge of the
-%   process that sent it.
+%   here if there is no connection to that, unless Id has ended, which is normal.
+%   A message whose sender is not an agent, but a term such as fipa(Name), is
+%   returned to the bridge of the process that sent it.
 
 mail_lost(Formal, Id, Mail) :-
     partition(is_from_bridge, Mail, Bridged, Sent),
