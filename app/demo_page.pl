@@ -7,7 +7,7 @@
 Sixty hosts in four processes, whose links change.  Two mechanisms run there:
 agents execute sequences of tasks in step, while hosts lose tasks
 now and then; and antigens attack hosts, which release antibodies.  A supervisor
-restarts an inspector that fails every twelve seconds.  Prints the
+restarts an inspector that fails every half minute.  Prints the
 link to the page, and runs until Ctrl-C.
 
 *Threading*: the main thread starts the network; another thread causes attacks
@@ -114,7 +114,8 @@ begin(Port, Network, Hosts) :-
     page_serve([port(Port)], Link),
     print_link(Link),
     flush_output,
-    sieve_start(Hosts, payloads(sieve/bits), []),
+    sieve_start(Hosts, payloads(sieve/bits),
+                [settings([expiry-20, omega-20])]),   % the population is level
     supervised(Hosts).
 
 %   An inspector fails after some steps, and its supervisor restarts it.
@@ -128,7 +129,7 @@ supervised([Host|_]) :-
 inspector(clauses(
     [ (:- agent(inspector, [])),
       (main :- inspect(6)),
-      (inspect(N) :- N > 0, sleep(2), N1 is N-1, inspect(N1))
+      (inspect(N) :- N > 0, sleep(5), N1 is N-1, inspect(N1))
     ])).
 
 %   The link is the first line, for programs.

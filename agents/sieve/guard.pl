@@ -207,12 +207,13 @@ draw(Draws, Antigen, Drawn, Chance0, Chance) :-
 release(Host, Antibody, Memory) :-
     application(Application),
     parameter(gamma, Gamma),
+    parameter(expiry, Expiry),
     findall(setting(Name, Value), setting(Name, Value), Settings),
     catch(( typhon:agent_create(agents(sieve/antibody), _,
                                 [ host(Host), payloads([Application]),
                                   facts([ antibody(Antibody), gamma(Gamma),
                                           memory(Memory), wins(0),
-                                          expiry(inf), shunned([])
+                                          expiry(Expiry), shunned([])
                                         | Settings
                                         ])
                                 ]),

@@ -18,6 +18,7 @@ default(beta, 0.5).
 default(kt, 0.5).               % of equation 3.4
 default(ku, 0.5).               % of equation 3.5
 default(omega, 1000).           % hops a clone lives
+default(expiry, inf).           % hops an agent lives that is no clone
 default(gamma, 1.0).
 default(reading, similar).      % see idiotypic.pl
 default(span, 3).               % hops a danger signal spreads
