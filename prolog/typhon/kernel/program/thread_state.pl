@@ -313,7 +313,11 @@ old(seen, _, In) :- current_input(In).
 old(flag(Flag), _, Old) :- current_prolog_flag(Flag, Old).
 old(style, _, Old) :- '$style_check'(Old, Old).
 old(prompt, _, Old) :- prompt(Old, Old).
-old(random, _, none).
+old(random, _, Old) :-
+    (   catch(random_property(state(State)), error(_, _), fail)
+    ->  Old = state(State)
+    ;   Old = seed(random)              % without GMP
+    ).
 old(locale, _, Old) :- current_locale(Old).
 old(stack(Stack, Name), _, Old) :-
     functor(Old, Name, 1),
@@ -355,8 +359,8 @@ restored(style, _, Old) :-
     '$style_check'(_, Old).
 restored(prompt, _, Old) :-
     prompt(_, Old).
-restored(random, _, _) :-
-    set_random(seed(random)).
+restored(random, _, Old) :-
+    set_random(Old).
 restored(locale, _, Old) :-
     set_locale(Old).
 restored(stack(Stack, _), _, Old) :-
@@ -372,6 +376,7 @@ restored(variables, Agent, _) :-
     forall(member(Key-Fact, Pairs),
            ( nb_delete(Key),
              ( is_storable(Fact) -> assertz(Agent:Fact) ; true ) )).
+
 library_variables_reset(Keys) :-
     findall(Key,
             ( nb_current(Key, _),

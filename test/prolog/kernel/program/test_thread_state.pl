@@ -60,6 +60,7 @@ changes(set_prolog_flag(Flag, Value), current_prolog_flag(Flag)) :-
     flag(Flag, Value).
 changes(style_check(-discontiguous), style).
 changes(prompt(_, 'test> '), prompt).
+changes(set_random(seed(1)), random_property).
 changes(( locale_create(L, 'C', [decimal_point(',')]), set_locale(L) ),
         current_locale).
 changes(mutex_lock(test_thread_state), status(test_thread_state)).
@@ -89,6 +90,7 @@ null(S) :-
 
 look(style, Seen) :- !, '$style_check'(Seen, Seen).
 look(prompt, Seen) :- !, prompt(Seen, Seen).
+look(random_property, Seen) :- !, random_property(state(Seen)).
 look(status(Mutex), Seen) :-
     !,
     ( catch(mutex_property(Mutex, status(S)), error(_, _), fail) -> Seen = S
