@@ -18,6 +18,7 @@
             deferred_drop/3,            % +Kind, +Key, +N
             deferred_act/4,             % +Kind, +Key, +Term, +By
             sync_changes/0,
+            sync_after/1,               % :Goal
             commit_changes/0,
             send_after_commit/2,        % +Item, +When
             flush_sends/0,
@@ -69,6 +70,7 @@ inside the mutex that guards its owner.
     deferred_act/4,
     act/3,                      % Kind, Key, Term: what was deferred
     sync/0,                     % see sync_changes/0
+    must_keep/0,                % raise an error if changes were dropped
     commit/0,                   % see commit_changes/0
     send_after_commit/2,
     flush_sends/0,
@@ -79,7 +81,9 @@ inside the mutex that guards its owner.
     committed/1,                % Items: they may be sent, in this order
     reached/1.                  % Name: of crash_point/1
 
-:- meta_predicate unit_of_work(0).
+:- meta_predicate
+    sync_after(0),
+    unit_of_work(0).
 
 :- dynamic
     reached/1,
@@ -237,6 +241,21 @@ effects_deferred :-
 
 sync_changes :-
     ( durable_on -> sync ; true ).
+
+%!  sync_after(:Goal) is det.
+%
+%   Call Goal once, then sync_changes/0, which also reports changes of Goal that
+%   were dropped when the store has ended meanwhile.
+
+sync_after(Goal) :-
+    nb_setval(typhon_changes_dropped, none),
+    once(Goal),
+    (   durable_on
+    ->  sync
+    ;   nb_getval(typhon_changes_dropped, none)
+    ->  true
+    ;   must_keep
+    ).
 
 %!  commit_changes is det.
 %

@@ -12,7 +12,7 @@
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(option), [option/2]).
 :- use_module('../base/options', [check_options/2]).
-:- use_module('../base/durable_changes', [sync_changes/0]).
+:- use_module('../base/durable_changes', [sync_after/1]).
 :- use_module('../program', [payload_load/2]).
 :- use_module('../host',
               [address_parts/3, as_guest/1, context_now/2, host_address/2]).
@@ -169,18 +169,16 @@ agent_send(at(Agent, Host), Message) :-
     host_address(Host, Address),
     address_parts(Address, _, Endpoint),
     sender(From),
-    as_guest(post_via(Id, Endpoint, From, Message)),
-    sync_changes.
+    sync_after(as_guest(post_via(Id, Endpoint, From, Message))).
 agent_send(Agent, Message) :-
     (   atom(Agent),
         agent(Agent, _, _, _, _)        % then this process is not a guest
     ->  sender(From),
-        post(Agent, From, Message)
+        sync_after(post(Agent, From, Message))
     ;   agent_named(Agent, Id),
         sender(From),
-        as_guest(post(Id, From, Message))
-    ),
-    sync_changes.
+        sync_after(as_guest(post(Id, From, Message)))
+    ).
 
 sender(From) :-
     (   context_now(_, Agent),

@@ -107,7 +107,7 @@ queue_entry(Changes) :-
     (   queued(Changes)
     ->  true
     ;   get_flag(typhon_journal_start, Start),
-        nb_setval(typhon_journal_dropped, Start)
+        nb_setval(typhon_changes_dropped, Start)
     ).
 
 queue_send(Item) :-
@@ -132,7 +132,7 @@ put_entry(Entry) :-
 %          the error of the last commit
 
 queue_must_keep :-
-    (   nb_current(typhon_journal_dropped, Start),
+    (   nb_current(typhon_changes_dropped, Start),
         get_flag(typhon_journal_start, Start)
     ->  existence_error(journal, open)
     ;   \+ queue(_, _, _),

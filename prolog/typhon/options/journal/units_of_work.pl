@@ -58,6 +58,7 @@ effects.
     typhon_durable_changes:enqueue/0,
     typhon_durable_changes:flush_sends/0,
     typhon_durable_changes:in_unit/1,
+    typhon_durable_changes:must_keep/0,
     typhon_durable_changes:next_number/1,
     typhon_durable_changes:send_after_commit/2,
     typhon_durable_changes:sync/0.
@@ -248,6 +249,9 @@ enqueue :-
 typhon_durable_changes:sync :-
     enqueue,
     commit_queue,
+    queue_must_keep.
+
+typhon_durable_changes:must_keep :-
     queue_must_keep.
 
 typhon_durable_changes:commit :-
