@@ -114,6 +114,8 @@ An option that has data for each host follows the life of the host by the hooks
     limit/3,
     ends/1.
 
+:- '$clausable'(ends/1).
+
 :- dynamic
     compiled/1,
     parts/3.                    % Phase, Host, Closures

@@ -52,6 +52,8 @@ endpoint with the other users of the process, see typhon_runtime.
     closes/1,                   % Name: the host admits agents no more
     evacuate/2.                 % Name, Deadline: end all agents on the host
 
+:- '$clausable'(closes/1), '$clausable'(evacuate/2).
+
 :- meta_predicate hosts_exclusively(0).
 
                 /*******************************

@@ -50,6 +50,8 @@ stopping the platform waits for them.
     beginning/1,                        % Kind of the runtime that has started
     ending/1.                           % before or after endpoint and time stop
 
+:- '$clausable'(ending/1).
+
 :- dynamic user/2.              % Name of a user, Endpoint
 
 %   This runs when the module is loaded, or a saved state with it starts: once a
