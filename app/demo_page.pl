@@ -40,6 +40,11 @@ and failures until it is stopped.
 
 :- public main/1.
 
+opt_type(port, port, nonneg).
+opt_type(seed, seed, integer).
+opt_help(port, 'of the page (default 8080; 0: any that is free)').
+opt_help(seed, 'of the network (default 1)').
+
 main(Argv) :-
     arguments(Argv, [], Options),
     option(port(Port), Options, 8080),

@@ -286,6 +286,12 @@ save_and_load(B, Facts, Host, Dir) :-
     agent_property(C, host(Host)),
     maplist(disposed, [A,C]).
 
+reported(Peer, Agent) :-
+    peer_messages(Peer, Lines),
+    member(Line, Lines),
+    sub_string(Line, _, _, _, Agent),
+    !.
+
 :- begin_tests(messages_between_processes,
                [setup(world_start), cleanup(world_end)]).
 
@@ -363,12 +369,12 @@ test(message_to_an_ended_agent_is_dropped_silently) :-
     peer_do(beta, true),
     peer_messages(beta, Lines),
     \+ ( member(Line, Lines), sub_string(Line, _, _, _, A) ).
-test(message_to_unknown_agent_is_reported_there) :-
-    there(beta, B),
-    atom_concat('x.1.2@', B, A),
-    agent_send(A, hello),
-    wait_until(( peer_messages(beta, Lines), member(Line, Lines),
-                 sub_string(Line, _, _, _, "x.1.2@") ), 10).
+test(message_to_unknown_agent_is_reported_where_it_was_sent) :-
+    there(gamma, C),
+    atom_concat('x.1.2@', C, A),
+    peer_do(beta, agent_send(A, hello)),
+    wait_until(reported(beta, A), 10),
+    \+ reported(gamma, A).
 
 :- end_tests(messages_between_processes).
 

@@ -84,7 +84,7 @@ test(mistyped_options_are_compared_with_unloaded_ones,
     seen('catch(host_start(a, [polici(x)]), E, true), \c
           \'$messages\':translate_message(E, Lines, []), \c
           print_message_lines(user_output, \'\', Lines)', Out).
-test(values_of_unloaded_options_are_checked, Out == "type_error(atom,1)") :-
+test(values_of_unloaded_options_are_checked, Out == "type_error(text,1)") :-
     seen('catch(host_start(a, [policy(1)]), error(E, _), print(E))', Out).
 test(settings_can_be_set_before_loading, Out == "7,7") :-
     seen('set_setting(typhon_watch_senders:events, 7), \c
