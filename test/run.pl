@@ -56,10 +56,11 @@ suite_deadline(600).
 
 %   Long suites begin early, so that all end at about the same time.
 
-longest([ chaos, shell, scripted, faults, network_journal, lasting, wire, doc,
+longest([ chaos, shell, user_program, scripted, faults, network_journal, lasting, wire, doc,
           hop, sync_network, auction_network, cluster,
           network, study_work, pack, robots, boxes_arena, ring,
-          learning_network, repeatable, agent, scheduler, letters, app ]).
+          learning_network, repeatable, agent, scheduler, letters, app, site,
+          page, applications, make ]).
 
 %   These suites check how the library is loaded, or the options of swipl, or
 %   start attackers that know only the wire protocol.
