@@ -233,11 +233,11 @@ mail_full(Id, From) :-
 mail_fitting(Id, Mail, Fitting, Rest) :-
     mail_count(Id, Count),
     length(Mail, More),
-    setting(messages, Max),
-    (   Count+More =< Max
+    (   Count+More < 1000
     ->  Fitting = Mail,
         Rest = []
-    ;   Space is max(0, Max-Count),
+    ;   setting(messages, Max),
+        Space is max(0, Max-Count),
         fitting(Mail, Space, Fitting, Rest)
     ).
 

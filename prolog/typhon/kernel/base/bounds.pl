@@ -118,24 +118,44 @@ free_pages(Bytes) :-
 %
 %   Call Add, which adds a fact that matches Fact, after the oldest of them were
 %   deleted, so that there are never more than the setting Setting, module:name,
-%   allows.  The mutex is that of the table.
+%   allows.  A lower setting holds after at most a hundred additions.  The mutex
+%   is that of the table.
 
 bounded(Fact, Setting, Add) :-
     Setting = Module:Name,
-    atomic_list_concat([Module, Name], :, Mutex),
-    setting(Setting, Max),
-    with_mutex(Mutex, ( make_room(Fact, Max), call(Add) )).
-
-make_room(Fact, Max) :-
-    predicate_property(Fact, number_of_clauses(Count)),
-    Excess is Count-Max+1,
-    forall(between(1, Excess, _), forget(Fact)).
-
-%   Report the fact to modules that have related data.
-
-forget(Fact) :-
-    (   retract(Fact)
-    ->  strip_module(Fact, _, Plain),
-        forall(forgotten(Plain), true)
-    ;   true
+    atomic_list_concat([Module, Name], :, Table),
+    with_mutex(Table, added(Table, Fact, Setting, Add, Forgotten)),
+    (   Forgotten == []
+    ->  true
+    ;   report_forgotten(Forgotten)
     ).
+
+%   The flag Table: so many facts can be added before the next look.
+
+added(Table, Fact, Setting, Add, Forgotten) :-
+    get_flag(Table, Room),
+    (   Room > 0
+    ->  Forgotten = []
+    ;   make_room(Table, Fact, Setting, Forgotten)
+    ),
+    call(Add),
+    get_flag(Table, Room1),
+    Room2 is Room1-1,
+    set_flag(Table, Room2).
+
+%   Of a large table a hundred facts are deleted at a time.
+
+make_room(Table, Fact, Setting, Forgotten) :-
+    setting(Setting, Max),
+    predicate_property(Fact, number_of_clauses(Count)),
+    Some is max(1, min(100, Max//100)),
+    Excess is Count+Some-Max,
+    findall(Fact, ( between(1, Excess, _), once(retract(Fact)) ), Forgotten),
+    length(Forgotten, Deleted),
+    Room is max(1, min(100, Max-Count+Deleted)),
+    set_flag(Table, Room).
+
+%   Modules that have related data delete it.
+
+report_forgotten(Forgotten) :-
+    forall(( member(_:Fact, Forgotten), forgotten(Fact) ), true).

@@ -248,6 +248,8 @@ sync_changes :-
 %   were dropped when the store has ended meanwhile.
 
 sync_after(Goal) :-
+    durable_on,
+    !,
     nb_setval(typhon_changes_dropped, none),
     once(Goal),
     (   durable_on
@@ -256,6 +258,8 @@ sync_after(Goal) :-
     ->  true
     ;   must_keep
     ).
+sync_after(Goal) :-
+    once(Goal).
 
 %!  commit_changes is det.
 %

@@ -26,16 +26,14 @@ endpoint_parts(Endpoint, Interface, Port) :-
     integer(Port),
     between(0, 65535, Port).
 
+%   Hops check addresses: this one call strips all characters of names.
+
 is_interface(Interface) :-
     Interface \== '',
-    forall(sub_atom(Interface, _, 1, _, Char), interface_char(Char)).
-
-interface_char(Char) :-
-    memberchk(Char, [-, '.', '_']),
-    !.
-interface_char(Char) :-
-    Char @< '\x80\',
-    char_type(Char, alnum).
+    split_string(Interface, "",
+                 "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ\c
+                  0123456789-._",
+                 [""]).
 
 %!  must_be_endpoint(@Endpoint) is det.
 %
