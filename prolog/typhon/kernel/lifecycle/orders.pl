@@ -153,10 +153,12 @@ idle(sleeping(_)).
 idle(waiting(_, _)).
 idle(resident).
 
-%   Orders for an agent that has left meanwhile follow it, except evacuation,
-%   which is only for agents that stay.
+%   Orders for an agent that has left meanwhile follow it, except those that are
+%   only for agents that stay: to end with their host, or to come to rest.
 
 typhon_transfer:forward_order(_, evacuate(_)) :-
+    !.
+typhon_transfer:forward_order(_, asked(question(rest), _)) :-
     !.
 typhon_transfer:forward_order(Agent, Order) :-
     (   Order = asked(Order1, Asker)
