@@ -62,7 +62,7 @@ test(agents_stopped_in_flight_print_nothing,
 
 test(agents_stopped_in_a_long_goal_print_nothing,
      [ forall(member(Seconds-Options, [1.3-[processes(3)], 1.3-[],
-                                       4-[processes(3)]])),
+                                       3-[processes(3)]])),
        Told == [] ]) :-
     anywhere(Anywhere),
     format(atom(Sleep), 'sleep ~w', [Seconds]),
