@@ -71,6 +71,8 @@ test(ring, true) :-
     edges(ring(60), 1, N, Edges),
     degrees(N, Edges, Degrees),
     maplist(=(2), Degrees).
+test(ring_of_three_closes, Edges == [1-2, 1-3, 2-3]) :-
+    edges(ring(3), 1, 3, Edges).
 test(small_rings, [Two, One] == [[1-2], []]) :-
     edges(ring(2), 1, 2, Two),
     edges(ring(1), 1, 1, One).
