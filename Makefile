@@ -11,6 +11,8 @@ COUNT ?= 100000
 SEED ?= 1
 TLS ?= false
 CELL ?= none
+# Of what is changed, see test/mutants/run.pl.
+PART ?= all
 MAKEFLAGS += --no-print-directory
 ENTRY_POINTS = prolog/typhon.pl app/typhon.pl test/run.pl \
     experiments/study.pl bench/run.pl
@@ -21,7 +23,7 @@ CHECKS = list_undefined, list_trivial_fails, list_format_errors, \
 
 .PHONY: help tools tools-peers tools-all tools-ros demo demo-robots demo-ros \
     demo-page page-tools thesis thesis-real test chaos scripted fuzz \
-    fuzz-programs hostile check check-all \
+    fuzz-programs hostile mutants check check-all \
     doc pictures vscode release bench bench-peers profile \
     test-portability install clean
 
@@ -100,6 +102,11 @@ fuzz-programs:          ## random programs, compiled and interpreted; COUNT, SEE
 hostile:                ## hostile agents on a guarded host; COUNT=100000, SEED=1, CELL=owner
 	@$(SWIPL) test/chaos/hostile.pl -- --count $(COUNT) --seed $(SEED) \
 	    --cell $(CELL)
+
+# COUNT is 300 here, if it is not given.
+mutants: tools          ## take something away, look whether a test fails; COUNT, SEED, PART
+	@$(SWIPL) test/mutants/run.pl -- --seed $(SEED) --part $(PART) \
+	    --count $(if $(filter command,$(firstword $(origin COUNT))),$(COUNT),300)
 
 pictures: tools page-tools ## make all pictures of README and doc; KINDS=page
 	@.ci/install page

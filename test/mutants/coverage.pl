@@ -1,0 +1,242 @@
+:- module(test_coverage,
+          [ record_coverage/2,          % +File, +Names
+            load_coverage/1,            % +File
+            suites_of/3                 % +File, +Predicate, -Suites
+          ]).
+
+/** <module> Which suites execute which predicates
+
+The suites run once in a copy of this project in which each rule of prolog/,
+app/ and experiments/ notes that it was executed. What was recorded is a file
+of
+
+| suite(Suite, Processor, Seconds)      | it passed, in these times             |
+| executes(Suite, File, Predicates)     | it executed these predicates of File  |
+
+Suites that fail in such a copy are left out. They look at the text of the
+product, not at what it does.
+
+*Threading*: the main thread only, as for test/run.pl.
+*/
+
+:- use_module(changes, [file_rules/2]).
+:- use_module(copies, [with_copy/1, write_in_copy/3]).
+:- use_module('../lib/common', [project_file/2]).
+:- use_module(library(apply), [foldl/4]).
+:- use_module(library(filesex),
+              [directory_file_path/3, directory_member/3, make_directory_path/1]).
+:- use_module(library(lists), [member/2, subtract/3]).
+:- use_module(library(pairs), [group_pairs_by_key/2, pairs_values/2]).
+:- use_module(library(process), [process_create/3, process_wait/2]).
+:- use_module(library(readutil), [read_file_to_string/3, read_file_to_terms/3]).
+
+:- dynamic suite/3, executes/3.
+
+noted(prolog).
+noted(app).
+noted(experiments).
+
+%!  record_coverage(+File, +Names:list) is det.
+%
+%   Of the suites Names, as test/run.pl takes them; of all if there are none.
+
+record_coverage(File, Names) :-
+    with_copy(record(File, Names)).
+
+record(File, Names, Copy) :-
+    findall(Program, noted_program(Program), Programs),
+    foldl(note_program(Copy), Programs, 1-[], _-Numbers),
+    directory_file_path(Copy, hits, Hits),
+    make_directory_path(Hits),
+    run_suites(Copy, Names, Hits, Times),
+    setup_call_cleanup(
+        open(File, write, Out, [encoding(utf8)]),
+        write_coverage(Out, Hits, Numbers, Times),
+        close(Out)).
+
+noted_program(Program) :-
+    noted(Part),
+    project_file(Part, Dir),
+    directory_member(Dir, Path, [recursive(true), extensions([pl])]),
+    project_file('.', Dot),
+    atom_concat(Root, '.', Dot),
+    atom_concat(Root, Program, Path).
+
+%   note_program(+Copy, +Program, +State0, -State): State is Next-Numbers, of
+%   number(Number, Program, Predicate).
+
+note_program(Copy, Program, Next0-Numbers0, Next-Numbers) :-
+    project_file(Program, Path),
+    (   file_rules(Path, rules(End, Bodies)),
+        Bodies \== []
+    ->  read_file_to_string(Path, Text, [encoding(utf8)]),
+        findall(P, member(body(P, _, _, _), Bodies), Ps0),
+        sort(Ps0, Ps),
+        numbered(Ps, Program, Next0, Next, Numbers0, Numbers),
+        project_file('test/mutants/hits', Hits),
+        format(string(Load), " :- use_module('~w', []).", [Hits]),
+        findall(At-New,
+                ( At = End, New = Load
+                ; member(body(P, Kind, Start, Stop), Bodies),
+                  member(number(N, Program, P), Numbers),
+                  noting(Kind, N, Start, Stop, At, New)
+                ),
+                Inserts0),
+        msort(Inserts0, Inserts),
+        inserted(Inserts, Text, 0, Parts),
+        atomic_list_concat(Parts, Noting),
+        write_in_copy(Copy, Program, Noting)
+    ;   Next = Next0,
+        Numbers = Numbers0
+    ).
+
+numbered([], _, Next, Next, Numbers, Numbers).
+numbered([P|Ps], Program, Next0, Next, Numbers0, Numbers) :-
+    Next1 is Next0+1,
+    numbered(Ps, Program, Next1, Next, [number(Next0, Program, P)|Numbers0],
+             Numbers).
+
+noting(rule, N, Start, _, Start, New) :-
+    format(string(New), "system:'$hit'(~d),(", [N]).
+noting(dcg, N, Start, _, Start, New) :-
+    format(string(New), "{system:'$hit'(~d)},(", [N]).
+noting(_, _, _, Stop, Stop, ")").
+
+inserted([], Text, At, [Rest]) :-
+    sub_string(Text, At, _, 0, Rest).
+inserted([Place-New|Inserts], Text, At, [Before, New|Parts]) :-
+    Length is Place-At,
+    sub_string(Text, At, Length, _, Before),
+    inserted(Inserts, Text, Place, Parts).
+
+%   run_suites(+Copy, +Names, +Hits, -Times): time(Suite, Processor, Seconds) of those
+%   that passed, read from what test/run.pl prints.
+
+run_suites(Copy, Names, Hits, Times) :-
+    directory_file_path(Copy, 'test/run.pl', Runner),
+    directory_file_path(Copy, 'run.log', Log),
+    ( Names == [] -> Args = [] ; Args = ['--'|Names] ),
+    setup_call_cleanup(
+        open(Log, write, Out),
+        ( process_create(path(swipl), [file(Runner)|Args],
+                         [ cwd(Copy), stdin(null), stdout(stream(Out)),
+                           stderr(stream(Out)), process(Pid),
+                           environment(['TYPHON_HITS'=Hits])
+                         ]),
+          process_wait(Pid, _)
+        ),
+        close(Out)),
+    read_file_to_string(Log, Text, []),
+    split_string(Text, "\n", "", Lines),
+    findall(Time, ( member(Line, Lines), suite_time(Line, Time) ), Times).
+
+%   test_x.pl   12 passed   1.0 s   1.2 s of processor
+
+suite_time(Line, time(Suite, Processor, Seconds)) :-
+    split_string(Line, " ", " ", Words0),
+    subtract(Words0, [""], [Suite, _, "passed", S, "s", P, "s", "of",
+                            "processor"]),
+    number_string(Seconds, S),
+    number_string(Processor, P).
+
+write_coverage(Out, Hits, Numbers, Times) :-
+    suite_paths(Paths),
+    forall(( member(time(Base, Processor, Seconds), Times),
+             member(Base-Suite, Paths)
+           ),
+           ( format(Out, '~q.~n', [suite(Suite, Processor, Seconds)]),
+             write_executed(Out, Hits, Base, Suite, Numbers)
+           )).
+
+suite_paths(Paths) :-
+    project_file(test, Test),
+    project_file('.', Dot),
+    atom_concat(Root, '.', Dot),
+    findall(Base-Suite,
+            ( directory_member(Test, Path,
+                               [recursive(true), extensions([pl])]),
+              file_base_name(Path, Base0),
+              sub_atom(Base0, 0, _, _, test_),
+              atom_string(Base0, Base),
+              atom_concat(Root, Suite, Path)
+            ),
+            Paths).
+
+write_executed(Out, Hits, Base, Suite, Numbers) :-
+    directory_file_path(Hits, Base, File),
+    (   exists_file(File)
+    ->  read_file_to_terms(File, Hit0, []),
+        sort(Hit0, Hit)
+    ;   Hit = []
+    ),
+    findall(Program-P,
+            ( member(number(N, Program, P), Numbers), memberchk(N, Hit) ),
+            Pairs0),
+    keysort(Pairs0, Pairs),
+    group_pairs_by_key(Pairs, Groups),
+    forall(member(Program-Ps, Groups),
+           format(Out, '~q.~n', [executes(Suite, Program, Ps)])).
+
+%!  load_coverage(+File) is det.
+
+load_coverage(File) :-
+    retractall(suite(_, _, _)),
+    retractall(executes(_, _, _)),
+    read_file_to_terms(File, Terms, [encoding(utf8)]),
+    forall(member(Term, Terms), assertz(Term)).
+
+%!  suites_of(+File, +Predicate, -Suites:list) is det.
+%
+%   The suites that execute Predicate of File, as suite(Suite, Processor,
+%   Seconds). First the suite of the same place in test/, then the quickest.
+%   Of predicates that no suite is known to execute, such as those of facts
+%   only, and of programs of agents: those that execute something in File, or
+%   are in its place.
+
+suites_of(File, Predicate, Suites) :-
+    findall(Order-suite(Suite, Processor, Seconds),
+            ( suite(Suite, Processor, Seconds),
+              executes(Suite, File, Ps),
+              memberchk(Predicate, Ps),
+              order(File, Suite, Processor, Order)
+            ),
+            Pairs0),
+    Pairs0 \== [],
+    !,
+    keysort(Pairs0, Pairs),
+    pairs_values(Pairs, Suites).
+suites_of(File, _, Suites) :-
+    findall(Order-suite(Suite, Processor, Seconds),
+            ( suite(Suite, Processor, Seconds),
+              (   executes(Suite, File, _)
+              ->  true
+              ;   same_place(File, Suite)
+              ),
+              order(File, Suite, Processor, Order)
+            ),
+            Pairs0),
+    keysort(Pairs0, Pairs),
+    pairs_values(Pairs, Suites).
+
+order(File, Suite, Processor, Place-Processor) :-
+    (   mirrored(File, Suite)
+    ->  Place = 1
+    ;   same_place(File, Suite)
+    ->  Place = 2
+    ;   Place = 3
+    ).
+
+%   prolog/typhon/kernel/wire/frame.pl: test/prolog/kernel/wire/test_frame.pl
+
+mirrored(File, Suite) :-
+    file_base_name(File, Base),
+    atom_concat(test_, Base, SuiteBase),
+    file_base_name(Suite, SuiteBase).
+
+same_place(File, Suite) :-
+    file_directory_name(File, Dir0),
+    (   atom_concat('prolog/typhon/', Rest, Dir0)
+    ->  atom_concat('test/prolog/', Rest, Dir)
+    ;   atom_concat('test/', Dir0, Dir)
+    ),
+    file_directory_name(Suite, Dir).

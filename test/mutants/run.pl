@@ -1,0 +1,311 @@
+:- module(test_mutants, []).
+
+/** <module> Takes something away, and looks whether a test fails
+
+    swipl test/mutants/run.pl -- [--count N] [--seed N] [--part PART] [--jobs N]
+
+Changes of the product, drawn at random or those that ../promises.pl declares,
+each run in a copy of the project with the suites that execute the changed
+predicate, until a test fails. Those are the suites of the file
+out/coverage.pl, which the first run records, in the time of all suites;
+`--record` records it anew, of the suites that are named, or of all.
+
+Printed are, of each change, the test that failed, or that it survived. The
+exit status is 1 if a change survived. A change in equivalent.pl
+changes nothing that can be observed, for the reason given there; it is not
+drawn.
+
+*Threading*: the main thread only.
+*/
+
+:- use_module(changes, 
+              [changed_text/3, change_text/2, file_changes/2, file_rules/2]).
+:- use_module(copies, [with_copy/1, write_in_copy/3, suite_in_copy/4]).
+:- use_module(coverage,
+              [load_coverage/1, record_coverage/2, suites_of/3]).
+:- use_module(equivalent, [equivalent_change/2]).
+:- use_module('../promises', [promise_change/3]).
+:- use_module('../lib/common', [project_file/2, with_tmp_dir/1]).
+:- use_module('../../app/typhon/arguments', [arguments/3]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(apply), [exclude/3, maplist/3, maplist/4]).
+:- use_module(library(filesex),
+              [directory_file_path/3, directory_member/3,
+               make_directory_path/1]).
+:- use_module(library(lists), [append/2, member/2, nth1/3, numlist/3]).
+:- use_module(library(main), [main/0]).
+:- use_module(library(option), [option/2, option/3]).
+:- use_module(library(process), [process_create/3, process_wait/2]).
+:- use_module(library(random), [random_permutation/2]).
+:- use_module(library(readutil),
+              [read_file_to_string/3, read_file_to_terms/3]).
+
+:- initialization(main, main).
+
+opt_type(count, count, nonneg).
+opt_type(seed, seed, nonneg).
+opt_type(part, part, oneof([kernel,options,network,tools,bridges,agents,
+                            experiments,app,security,all,
+                            declared])).
+opt_type(record, record, boolean).
+opt_type(jobs, jobs, nonneg).
+opt_type(only, only, atom).
+opt_type(worker, worker, atom).
+opt_help(count, 'changes at random (default 300)').
+opt_help(seed, 'of the draw (default 1)').
+opt_help(part, 'of the product (default all); declared: those of promises.pl').
+opt_help(record, 'record anew which suites execute what').
+opt_help(jobs, 'changes at a time (default 2)').
+opt_help(only, 'only the declared change of this name').
+opt_help(worker, 'try the changes in this file').
+
+%   The suites that run for one change take about this long, in seconds of
+%   processor time.
+
+budget(90).
+
+%   part(Part, Start): files of Part begin with Start.
+
+part(kernel, 'prolog/typhon/kernel/').
+part(options, 'prolog/typhon/options/').
+part(network, 'prolog/typhon/network/').
+part(tools, 'prolog/typhon/tools/').
+part(bridges, 'prolog/typhon/bridges/').
+part(agents, 'agents/').
+part(agents, 'payloads/').
+part(experiments, 'experiments/').
+part(app, 'app/').
+part(security, 'prolog/typhon/kernel/wire/kinds.pl').
+part(security, 'prolog/typhon/kernel/wire/handshake').
+part(security, 'prolog/typhon/kernel/host/rights.pl').
+part(security, 'prolog/typhon/kernel/program/libraries.pl').
+part(security, 'prolog/typhon/options/access').
+part(security, 'prolog/typhon/options/cell').
+part(security, 'prolog/typhon/options/guard').
+part(security, 'prolog/typhon/options/identity').
+part(security, 'prolog/typhon/options/keys').
+part(security, 'prolog/typhon/options/quotas').
+part(security, 'prolog/typhon/options/tls').
+part(security, 'prolog/typhon/options/trail').
+part(security, 'prolog/typhon/tools/page').
+part(all, Start) :-
+    part(Part, Start),
+    Part \== all.
+
+main(Argv) :-
+    arguments(Argv, Names, Options),
+    (   option(worker(File), Options)
+    ->  with_copy(work(File))
+    ;   mutants([names(Names)|Options], Status),
+        halt(Status)
+    ).
+
+mutants(Options, Status) :-
+    project_file(out, Out),
+    make_directory_path(Out),
+    chosen(Options, Mutants),
+    (   member(mutant(_, _, executing), Mutants)
+    ->  directory_file_path(Out, 'coverage.pl', Coverage),
+        coverage(Coverage, Options)
+    ;   true
+    ),
+    with_tmp_dir(try(Mutants, Options, Results)),
+    report(Results, Status).
+
+coverage(File, Options) :-
+    (   exists_file(File),
+        \+ option(record(true), Options)
+    ->  true
+    ;   format("recording which suites execute what, in ~w~n", [File]),
+        option(names(Names), Options),
+        record_coverage(File, Names)
+    ).
+
+                /*******************************
+                *            CHOICE            *
+                *******************************/
+
+%   mutant(Name, Change, Suites): Suites of a declared one, or `executing`.
+
+chosen(Options, Mutants) :-
+    option(only(Name), Options),
+    !,
+    promise_change(Name, Change, Suites),
+    Mutants = [mutant(Name, Change, Suites)].
+chosen(Options, Mutants) :-
+    option(part(declared), Options),
+    !,
+    findall(mutant(Name, Change, Suites),
+            promise_change(Name, Change, Suites), Mutants).
+chosen(Options, Mutants) :-
+    option(part(Part), Options, all),
+    option(count(Count), Options, 300),
+    option(seed(Seed), Options, 1),
+    findall(File, part_program(Part, File), Files0),
+    sort(Files0, Files),
+    maplist(program_changes, Files, Lists),
+    append(Lists, Changes),
+    set_random(seed(Seed)),
+    random_permutation(Changes, Shuffled),
+    exclude(is_equivalent, Shuffled, Different),
+    first(Count, Different, Drawn),
+    findall(mutant(N, Change, executing), nth1(N, Drawn, Change), Mutants).
+
+is_equivalent(Change) :-
+    equivalent_change(Change, _).
+
+part_program(Part, File) :-
+    project_file('.', Dot),
+    atom_concat(Root, '.', Dot),
+    member(Top, [prolog, agents, payloads, experiments, app]),
+    project_file(Top, Dir),
+    directory_member(Dir, Path, [recursive(true), extensions([pl])]),
+    atom_concat(Root, File, Path),
+    part(Part, Start),
+    sub_atom(File, 0, _, _, Start).
+
+program_changes(File, Changes) :-
+    project_file(File, Path),
+    file_changes(Path, Changes0),
+    maplist(set_file(File), Changes0, Changes).
+
+set_file(File, change(_, S, E, New, Kind, P, Line),
+         change(File, S, E, New, Kind, P, Line)).
+
+first(Count, List, First) :-
+    length(List, Length),
+    N is min(Count, Length),
+    length(First, N),
+    append([First, _], List).
+
+                /*******************************
+                *            TRIALS            *
+                *******************************/
+
+%   Workers are processes, each with a copy; they take turns.
+
+try(Mutants, Options, Results, Dir) :-
+    option(jobs(Jobs), Options, 2),
+    numlist(1, Jobs, Workers),
+    maplist(start_worker(Dir, Jobs, Mutants), Workers, Pids, Files),
+    forall(member(Pid, Pids), process_wait(Pid, _)),
+    findall(Result,
+            ( member(File, Files),
+              read_file_to_terms(File, Terms, [encoding(utf8)]),
+              member(Result, Terms)
+            ),
+            Results).
+
+start_worker(Dir, Jobs, Mutants, Worker, Pid, Results) :-
+    findall(Mutant,
+            ( nth1(N, Mutants, Mutant), N mod Jobs =:= Worker mod Jobs ),
+            Own),
+    format(atom(File), '~w/worker~d', [Dir, Worker]),
+    atom_concat(File, '.results', Results),
+    setup_call_cleanup(
+        open(File, write, Out, [encoding(utf8)]),
+        forall(member(Mutant, Own), format(Out, '~q.~n', [Mutant])),
+        close(Out)),
+    project_file('test/mutants/run.pl', Run),
+    process_create(path(swipl),
+                   [file(Run), '--', '--worker', file(File)],
+                   [ stdin(null), process(Pid) ]).
+
+work(File, Copy) :-
+    read_file_to_terms(File, Mutants, [encoding(utf8)]),
+    project_file('out/coverage.pl', Coverage),
+    ( exists_file(Coverage) -> load_coverage(Coverage) ; true ),
+    atom_concat(File, '.results', Results),
+    setup_call_cleanup(
+        open(Results, write, Out, [encoding(utf8)]),
+        forall(member(Mutant, Mutants), try_one(Copy, Mutant, Out)),
+        close(Out)).
+
+try_one(Copy, mutant(Name, Change, Suites0), Out) :-
+    change_suites(Suites0, Change, Suites),
+    Change = change(File, _, _, _, _, _, _),
+    project_file(File, Path),
+    read_file_to_string(Path, Text, [encoding(utf8)]),
+    changed_text(Text, Change, Changed0),
+    without_style_warnings(Path, Changed0, Changed),
+    get_time(Start),
+    setup_call_cleanup(
+        write_in_copy(Copy, File, Changed),
+        outcome(Suites, Copy, Outcome),
+        write_in_copy(Copy, File, Text)),
+    get_time(End),
+    Seconds is End-Start,
+    change_text(Change, Line),
+    format(Out, '~q.~n', [result(Name, Line, Outcome, Seconds)]),
+    flush_output(Out),
+    print_outcome(Name, Line, Outcome, Seconds),
+    flush_output.
+
+change_suites(executing, change(File, _, _, _, _, Predicate, _), Suites) :-
+    !,
+    suites_of(File, Predicate, Suites0),
+    within_budget(Suites0, 0, Suites).
+change_suites(Names, _, Suites) :-
+    findall(suite(Name, 60, 120), member(Name, Names), Suites).
+
+within_budget([], _, []).
+within_budget([suite(S, P, T)|Suites0], Sum0, Suites) :-
+    Sum is Sum0+P,
+    budget(Budget),
+    (   Sum =< Budget
+    ->  Suites = [suite(S, P, T)|Suites1],
+        within_budget(Suites0, Sum, Suites1)
+    ;   Sum0 =:= 0
+    ->  Suites = [suite(S, P, T)]
+    ;   Suites = []
+    ).
+
+outcome([], _, survived).
+outcome([suite(Suite, Processor, Seconds)|Suites], Copy, Outcome) :-
+    Limit is ceiling(20+3*Processor),
+    Deadline is 120+5*Seconds,
+    suite_in_copy(Copy, Suite, limits(Limit, Deadline), Result),
+    (   Result = killed(Test)
+    ->  Outcome = killed(Suite, Test)
+    ;   outcome(Suites, Copy, Outcome)
+    ).
+
+%   A variable that occurs once, since a goal is left out, is no test.
+
+without_style_warnings(Path, Text0, Text) :-
+    (   file_rules(Path, rules(End, _))
+    ->  true
+    ;   End = 0
+    ),
+    sub_string(Text0, 0, End, _, Before),
+    sub_string(Text0, End, _, 0, After),
+    atomics_to_string(
+        [ Before,
+          " :- style_check(-singleton), style_check(-discontiguous).", After ],
+        Text).
+
+atomics_to_string(Parts, String) :-
+    atomic_list_concat(Parts, Atom),
+    atom_string(Atom, String).
+
+                /*******************************
+                *            REPORT            *
+                *******************************/
+
+print_outcome(Name, Line, killed(Suite, Test), Seconds) :-
+    format("~w killed ~1fs by ~w ~p~n    ~s~n",
+           [Name, Seconds, Suite, Test, Line]).
+print_outcome(Name, Line, survived, Seconds) :-
+    format("~w SURVIVED ~1fs~n    ~s~n", [Name, Seconds, Line]).
+
+report(Results, Status) :-
+    aggregate_all(count, member(result(_, _, killed(_, _), _), Results),
+                  Killed),
+    length(Results, All),
+    format("~d of ~d killed~n", [Killed, All]),
+    forall(member(result(Name, Line, survived, _), Results),
+           format("survived: ~w ~s~n", [Name, Line])),
+    (   Killed =:= All
+    ->  Status = 0
+    ;   Status = 1
+    ).

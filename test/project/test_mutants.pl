@@ -1,0 +1,101 @@
+:- module(test_mutants_suite, []).
+:- use_module('../lib/common').
+:- use_module('../mutants/changes').
+:- use_module('../promises', [promise/5]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(plunit)).
+:- use_module(library(readutil), [read_file_to_string/3]).
+
+/** <module> Changes that take a promise away, and the table of promises
+
+*Threading*: one test at a time.
+*/
+
+program(":- module(m, [p/2]).\n\c
+         \n\c
+         p(X, Y) :-\n    \c
+             (   X < 3,\n        \c
+                 !\n    \c
+             ->  \\+ q(X),\n        \c
+                 r(Y, a, b)\n    \c
+             ;   true\n    \c
+             ).\n\c
+         p(_, 7).\n").
+
+%   changed(-Kinds, -Texts): the changes of the program.
+
+changed(Changes, Texts) :-
+    with_tmp_dir(changed(Changes, Texts)).
+
+changed(Changes, Texts, Dir) :-
+    directory_file_path(Dir, 'm.pl', File),
+    program(Program),
+    setup_call_cleanup(open(File, write, Out), write(Out, Program), close(Out)),
+    file_changes(File, Changes0),
+    findall(Kind-Line,
+            member(change(_, _, _, _, Kind, p/2, Line), Changes0), Changes),
+    findall(Text,
+            ( member(Change, Changes0), changed_text(Program, Change, Text) ),
+            Texts).
+
+terms(Text, Count) :-
+    setup_call_cleanup(
+        open_string(Text, In),
+        aggregate_all(count, term_of(In), Count),
+        close(In)).
+
+term_of(In) :-
+    repeat,
+    read(In, Term),
+    (   Term == end_of_file
+    ->  !, fail
+    ;   true
+    ).
+
+:- begin_tests(mutants).
+
+test(each_kind_of_change_is_made, Missing == []) :-
+    changed(Changes, _),
+    findall(Kind-Line,
+            ( member(Kind-Line,
+                     [ clause-3, clause-10, order-3, goal-4, comparison-4,
+                       bound-4, cut-5, test-4, test-6, goal-6, goal-7,
+                       constants-7, bound-10 ]),
+              \+ memberchk(Kind-Line, Changes) ),
+            Missing).
+test(changed_program_is_a_program_with_as_many_lines, Faults == []) :-
+    changed(_, Texts),
+    findall(Text,
+            ( member(Text, Texts),
+              \+ ( catch(terms(Text, Count), error(syntax_error(_), _), fail),
+                   memberchk(Count, [2,3]),
+                   split_string(Text, "\n", "", Lines),
+                   length(Lines, 11) ) ),
+            Faults).
+test(no_change_leaves_the_program_as_it_was, [fail]) :-
+    changed(_, Texts),
+    program(Program),
+    member(Program, Texts).
+
+:- end_tests(mutants).
+
+:- begin_tests(promises).
+
+test(text_to_change_occurs_once, Wrong == []) :-
+    findall(Name,
+            ( promise(Name, _, _, File, Old-_),
+              project_file(File, Path),
+              read_file_to_string(Path, Text, [encoding(utf8)]),
+              \+ aggregate_all(count, sub_string(Text, _, _, _, Old), 1) ),
+            Wrong).
+test(documents_and_suites_exist, Missing == []) :-
+    findall(File,
+            ( promise(_, Document, Suites, _, _),
+              member(File, [Document|Suites]),
+              project_file(File, Path),
+              \+ exists_file(Path) ),
+            Missing).
+
+:- end_tests(promises).
