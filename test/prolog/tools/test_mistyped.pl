@@ -254,6 +254,9 @@ test(files) :-
                    working_directory(_, agents),
                    raises(agent_check(tourst),
                           ["There is no file tourst (did you mean tourist?)"]),
+                   raises(agent_check('tourst.pl'),
+                          ["There is no file 'tourst.pl' \c
+                            (did you mean tourist.pl?)"]),
                    error_text(agent_check('no/such/file'), Text),
                    assertion(sub_string(Text, _, _, _, "does not exist")) )).
 test(program_in_a_folder) :-

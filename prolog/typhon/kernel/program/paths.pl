@@ -128,7 +128,10 @@ files_beside(File, Dir, Files) :-
     findall(Name,
             ( member(Entry, Entries),
               file_name_extension(Base, pl, Entry),
-              in_folder(Folder, Base, Name) ),
+              ( file_name_extension(_, pl, File) -> Named = Entry
+              ; Named = Base
+              ),
+              in_folder(Folder, Named, Name) ),
             Files).
 
 in_folder('.', Base, Base) :-
