@@ -56,8 +56,8 @@ suite_deadline(600).
 
 %   Long suites begin early, so that all end at about the same time.
 
-longest([ chaos, shell, user_program, scripted, faults, network_journal, lasting, wire, doc,
-          hop, sync_network, auction_network, cluster,
+longest([ chaos, shell, user_program, scripted, faults, network_journal,
+          lasting, wire, doc, hop, sync_network, auction_network, cluster,
           network, study_work, pack, robots, boxes_arena, ring,
           learning_network, repeatable, agent, scheduler, letters, app, site,
           page, applications, make ]).

@@ -5,7 +5,7 @@
           ]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module('../base/text', [is_printable/1]).
-:- use_module('../wire', 
+:- use_module('../wire',
               [endpoint_address/1, endpoint_parts/3, must_be_endpoint/1]).
 :- use_module(hosts, [host/3]).
 :- use_module(links, [host_linked/1]).

@@ -66,8 +66,8 @@ stopping the platform waits for them.
 %   Endpoint is the address at which User is reached.  The first user decides
 %   with port(P), bind(Interface), advertise(Address), see endpoint_start/4, and
 %   tls(Directory), which is by default that of the environment variable
-%   `TYPHON_TLS`.  Later users cannot change interface, address and keys.  For another port the process listens there, too, as
-%   long as a user needs it.  time(Kind), see typhon_time, cannot be changed
+%   `TYPHON_TLS`.  Later users cannot change interface, address and keys.  For
+%   another port the process listens there, too, as long as a user needs it.  time(Kind), see typhon_time, cannot be changed
 %   either; a user without it accepts any kind.  Where the runtime is apart the
 %   endpoint reaches no other process, and ports have no meaning.
 %
