@@ -256,7 +256,7 @@ test(no_such_study) :-
     has(Text, ["There is no study 99.9"]).
 test(mistyped_study) :-
     with_study_file(['study(a, b).'], mistyped(Text)),
-    has(Text, ["There is no study stdy.pl (did you mean study?)"]).
+    has(Text, ["There is no study stdy.pl (did you mean study.pl?)"]).
 test(set_without_a_value) :-
     prints(['--set', 'a='], exit(1), Text),
     has(Text, ["NAME=VALUE"]).
