@@ -86,6 +86,7 @@ check:                  ## a quick look for mistakes, offline
 
 check-all:
 	@$(SWIPL) -q --on-error=status doc/layers.pl -- check
+	@$(SWIPL) -q --on-error=status -g check_promises -t halt test/promises.pl
 	@for file in $(ENTRY_POINTS); do \
 	    $(SWIPL) -q --on-error=status --on-warning=status \
 	        -g '$(CHECKS)' -t halt -l $$file || exit 1; \

@@ -23,8 +23,9 @@ inherit its blocked signals, SIGINT for one.
 :- use_module('lib/left_behind',
               [ kill_all_left_behind/0, kill_left_behind/2, suite_mark/2 ]).
 :- use_module('lib/quick_swipl', [quick_swipl/2]).
+:- use_module('lib/suites', [all_suites/1, suite_name/2, suite_named/2]).
 :- use_module(library(apply), [exclude/3, foldl/4, maplist/3]).
-:- use_module(library(filesex), [directory_file_path/3, directory_member/3]).
+:- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists),
               [ append/2, last/2, member/2, nth1/3, selectchk/3, sum_list/2 ]).
 :- use_module(library(main), [main/0]).
@@ -173,24 +174,16 @@ suite_files([], Files) :-
     !,
     all_suites(Files).
 suite_files(Names, Files) :-
-    all_suites(All),
-    maplist(named_suites(All), Names, Lists),
+    maplist(named_suites, Names, Lists),
     append(Lists, Files).
 
-all_suites(Files) :-
-    project_file(test, Test),
-    findall(File, suite_in(Test, File), Files0),
-    sort(Files0, Files).
-
-suite_in(Dir, File) :-
-    directory_member(Dir, File,
-                     [ recursive(true), extensions([pl]) ]),
-    suite_name(File, _).
-
-suite_name(File, Name) :-
-    file_base_name(File, Base),
-    atom_concat(test_, Rest, Base),
-    file_name_extension(Name, pl, Rest).
+named_suites(Name, Files) :-
+    findall(File, suite_named(Name, File), Files),
+    (   Files == []
+    ->  format(user_error, 'No such test suite: ~w~n', [Name]),
+        halt(1)
+    ;   true
+    ).
 
 %   place(+File, -Place): its position in the order of starting.
 
@@ -201,24 +194,6 @@ place(File, Place) :-
     ->  Place = Number
     ;   Place = later                   % which is after all numbers
     ).
-
-named_suites(All, Name, Files) :-
-    findall(File, ( member(File, All), is_named(Name, File) ), Files),
-    (   Files == []
-    ->  format(user_error, 'No such test suite: ~w~n', [Name]),
-        halt(1)
-    ;   true
-    ).
-
-is_named(Name, File) :-
-    suite_name(File, Name),
-    !.
-is_named(Name, File) :-
-    format(atom(Relative), 'test/~w', [Name]),
-    project_file(Relative, Dir),
-    atom_concat(Dir, /, Start),
-    sub_atom(File, 0, _, _, Start),
-    !.
 
 add_suite(suite(_, P1, Failures, Skipped), sum(P0, F0, S0), sum(P, F, S)) :-
     length(Failures, F1),

@@ -102,12 +102,19 @@ missing(Names, Packages) :-
     subtract(Parts, [""], Packages).
 
 %!  project_file(+Relative, -Absolute) is det.
+%!  project_file(-Relative, +Absolute) is semidet.
 %
 %   Absolute is the file at Relative, seen from the root of the tree.
 
 project_file(Relative, Absolute) :-
+    nonvar(Relative),
+    !,
     root(Root),
     directory_file_path(Root, Relative, Absolute).
+project_file(Relative, Absolute) :-
+    root(Root),
+    atom_concat(Root, /, Start),
+    atom_concat(Start, Relative, Absolute).
 
                 /*******************************
                 *           FIXTURES           *

@@ -22,6 +22,7 @@ product, not at what it does.
 :- use_module(changes, [file_rules/2]).
 :- use_module(copies, [with_copy/1, write_in_copy/3]).
 :- use_module('../lib/common', [project_file/2]).
+:- use_module('../lib/suites', [all_suites/1]).
 :- use_module(library(apply), [foldl/4]).
 :- use_module(library(filesex),
               [directory_file_path/3, directory_member/3, make_directory_path/1]).
@@ -58,9 +59,7 @@ noted_program(Program) :-
     noted(Part),
     project_file(Part, Dir),
     directory_member(Dir, Path, [recursive(true), extensions([pl])]),
-    project_file('.', Dot),
-    atom_concat(Root, '.', Dot),
-    atom_concat(Root, Program, Path).
+    project_file(Program, Path).
 
 %   note_program(+Copy, +Program, +State0, -State): State is Next-Numbers, of
 %   number(Number, Program, Predicate).
@@ -149,16 +148,12 @@ write_coverage(Out, Hits, Numbers, Times) :-
            )).
 
 suite_paths(Paths) :-
-    project_file(test, Test),
-    project_file('.', Dot),
-    atom_concat(Root, '.', Dot),
+    all_suites(Files),
     findall(Base-Suite,
-            ( directory_member(Test, Path,
-                               [recursive(true), extensions([pl])]),
-              file_base_name(Path, Base0),
-              sub_atom(Base0, 0, _, _, test_),
+            ( member(File, Files),
+              file_base_name(File, Base0),
               atom_string(Base0, Base),
-              atom_concat(Root, Suite, Path)
+              project_file(Suite, File)
             ),
             Paths).
 

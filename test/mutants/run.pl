@@ -89,8 +89,9 @@ part(security, 'prolog/typhon/options/tls').
 part(security, 'prolog/typhon/options/trail').
 part(security, 'prolog/typhon/tools/page').
 part(all, Start) :-
-    part(Part, Start),
-    Part \== all.
+    member(Part, [ kernel, options, network, tools, bridges, agents,
+                   experiments, app ]),
+    part(Part, Start).
 
 main(Argv) :-
     arguments(Argv, Names, Options),
@@ -100,26 +101,32 @@ main(Argv) :-
         halt(Status)
     ).
 
+mutants(Options, 0) :-
+    option(record(true), Options),
+    !,
+    option(names(Names), Options),
+    record(Names).
 mutants(Options, Status) :-
-    project_file(out, Out),
-    make_directory_path(Out),
     chosen(Options, Mutants),
-    (   member(mutant(_, _, executing), Mutants)
-    ->  directory_file_path(Out, 'coverage.pl', Coverage),
-        coverage(Coverage, Options)
+    (   member(mutant(_, _, executing), Mutants),
+        \+ recorded
+    ->  record([])
     ;   true
     ),
     with_tmp_dir(try(Mutants, Options, Results)),
     report(Results, Status).
 
-coverage(File, Options) :-
-    (   exists_file(File),
-        \+ option(record(true), Options)
-    ->  true
-    ;   format("recording which suites execute what, in ~w~n", [File]),
-        option(names(Names), Options),
-        record_coverage(File, Names)
-    ).
+recorded :-
+    project_file('out/coverage.pl', File),
+    exists_file(File).
+
+record(Names) :-
+    project_file(out, Out),
+    make_directory_path(Out),
+    directory_file_path(Out, 'coverage.pl', File),
+    format("recording which suites execute what, in ~w~n", [File]),
+    flush_output,
+    record_coverage(File, Names).
 
                 /*******************************
                 *            CHOICE            *
@@ -155,12 +162,10 @@ is_equivalent(Change) :-
     equivalent_change(Change, _).
 
 part_program(Part, File) :-
-    project_file('.', Dot),
-    atom_concat(Root, '.', Dot),
     member(Top, [prolog, agents, payloads, experiments, app]),
     project_file(Top, Dir),
     directory_member(Dir, Path, [recursive(true), extensions([pl])]),
-    atom_concat(Root, File, Path),
+    project_file(File, Path),
     part(Part, Start),
     sub_atom(File, 0, _, _, Start).
 

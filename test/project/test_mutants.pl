@@ -1,12 +1,11 @@
 :- module(test_mutants_suite, []).
 :- use_module('../lib/common').
 :- use_module('../mutants/changes').
-:- use_module('../promises', [promise/5]).
+:- use_module('../promises', [promise_problem/1]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(plunit)).
-:- use_module(library(readutil), [read_file_to_string/3]).
 
 /** <module> Changes that take a promise away, and the table of promises
 
@@ -83,19 +82,7 @@ test(no_change_leaves_the_program_as_it_was, [fail]) :-
 
 :- begin_tests(promises).
 
-test(text_to_change_occurs_once, Wrong == []) :-
-    findall(Name,
-            ( promise(Name, _, _, File, Old-_),
-              project_file(File, Path),
-              read_file_to_string(Path, Text, [encoding(utf8)]),
-              \+ aggregate_all(count, sub_string(Text, _, _, _, Old), 1) ),
-            Wrong).
-test(documents_and_suites_exist, Missing == []) :-
-    findall(File,
-            ( promise(_, Document, Suites, _, _),
-              member(File, [Document|Suites]),
-              project_file(File, Path),
-              \+ exists_file(Path) ),
-            Missing).
+test(each_has_an_anchor_a_test_and_its_text, Problems == []) :-
+    findall(Problem, promise_problem(Problem), Problems).
 
 :- end_tests(promises).

@@ -1,0 +1,56 @@
+:- module(test_suites,
+          [ all_suites/1,               % -Files
+            suite_name/2,               % +File, -Name
+            suite_named/2               % +Name, -File
+          ]).
+
+/** <module> The test suites of this project, and their names
+
+A suite test/prolog/kernel/wire/test_frame.pl is named `frame`, or, with all
+others of its folder, `prolog/kernel/wire`.
+
+*Threading*: any thread.
+*/
+
+:- use_module(common, [project_file/2]).
+:- use_module(library(filesex), [directory_member/3]).
+:- use_module(library(lists), [member/2]).
+
+%!  all_suites(-Files:list) is det.
+
+all_suites(Files) :-
+    project_file(test, Test),
+    findall(File, suite_in(Test, File), Files0),
+    sort(Files0, Files).
+
+suite_in(Dir, File) :-
+    directory_member(Dir, File, [recursive(true), extensions([pl])]),
+    suite_name(File, _).
+
+%!  suite_name(+File, -Name) is semidet.
+%
+%   Fails if File is no suite.
+
+suite_name(File, Name) :-
+    file_base_name(File, Base),
+    atom_concat(test_, Rest, Base),
+    file_name_extension(Name, pl, Rest).
+
+%!  suite_named(+Name, -File) is nondet.
+%
+%   File is absolute.
+
+suite_named(Name, File) :-
+    all_suites(Files),
+    member(File, Files),
+    is_named(Name, File).
+
+is_named(Name, File) :-
+    suite_name(File, Name),
+    !.
+is_named(Name, File) :-
+    format(atom(Relative), 'test/~w', [Name]),
+    project_file(Relative, Dir),
+    atom_concat(Dir, /, Start),
+    sub_atom(File, 0, _, _, Start),
+    !.
