@@ -333,7 +333,10 @@ layers([ 'kernel/base', 'bridges/helper', 'bridges/nxt', 'kernel/program',
 %
 %   File is a module inside the folder of Layer; is the interface of Layer,
 %   which stands beside the folder, or in prolog/typhon if programs of users
-%   import it; is one of both, and no face.
+%   import it; is one of both, and no face.  They are tabled, as checks ask them
+%   for each call of each file.
+
+:- table layer_module/3, interface/2.
 
 layer_module(File, Layer, Name) :-
     module_of(File, _),
