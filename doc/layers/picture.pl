@@ -13,7 +13,7 @@ picture :-
     format('  node [shape=box, style="filled,rounded", fontname=Helvetica, \c
             fontsize=11, height=0.3, color="#888888"];~n'),
     format('  edge [color="#777777", arrowsize=0.6];~n'),
-    forall(( layer_module(_, Layer, Name), colour(Layer, Colour) ),
+    forall(node(Name, Colour),
            format('  "~w" [fillcolor="~w"];~n', [Name, Colour])),
     forall(arrow(From, To),
            format('  "~w" -> "~w";~n', [From, To])),
@@ -30,6 +30,11 @@ colour('kernel/lifecycle', '#fbd9b5').
 colour('kernel/vocabulary',  '#f6cfc7').
 colour(network,   '#fbe3d0').
 colour(tools,    '#eeeeee').
+
+node(Name, Colour) :-
+    setof(N-C, File^Layer^( layer_module(File, Layer, N), colour(Layer, C) ),
+          Nodes),
+    member(Name-Colour, Nodes).
 
 %   An import from an interface is one from the modules behind it.
 
