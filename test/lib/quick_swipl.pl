@@ -4,7 +4,7 @@
 
 /** <module> A Prolog with a saved state of library(typhon)
 
-Loading the library takes 0.3 seconds, and suites start hundreds of processes
+Loading the library takes 0.3 seconds, and suites start thousands of processes
 that load it. So test/run.pl makes a saved state with the library, see
 quick_start, and runs the suites with it. The `executable` of a suite's
 process is this program, too; otherwise it behaves as `swipl`.
