@@ -6,9 +6,9 @@
 
 runs every test_*.pl in the folders of test/, or those named (`frame` for
 test/prolog/kernel/wire/test_frame.pl, `prolog/kernel/wire` for all in that
-folder), each in a process of its own, some at a time, and reports.  The last
-line is `N passed, N failed`; above it are the names of failed tests, and `N
-skipped`.  The exit status is 0 only if nothing failed.
+folder; or by their paths), each in a process of its own, some at a time, and
+reports.  The last line is `N passed, N failed`; above it are the names of
+failed tests, and `N skipped`.  The exit status is 0 only if nothing failed.
 
 A suite that does not load cleanly, has no tests, ends with a status other
 than 0, does not end within its deadline or leaves a process behind, which is
@@ -23,9 +23,11 @@ inherit its blocked signals, SIGINT for one.
 :- use_module('lib/left_behind',
               [ kill_all_left_behind/0, kill_left_behind/2, suite_mark/2 ]).
 :- use_module('lib/quick_swipl', [quick_swipl/2]).
+:- use_module('lib/slowness', [measure_slowness/0, patience/2]).
 :- use_module('lib/suites', [all_suites/1, suite_name/2, suite_named/2]).
 :- use_module(library(apply), [exclude/3, foldl/4, maplist/3]).
-:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(filesex),
+              [directory_file_path/3, make_directory_path/1]).
 :- use_module(library(lists),
               [ append/2, last/2, member/2, nth1/3, selectchk/3, sum_list/2 ]).
 :- use_module(library(main), [main/0]).
@@ -47,13 +49,14 @@ inherit its blocked signals, SIGINT for one.
 suites_at_a_time(3, 7).
 idle_share(0.35).                       % of the time of all processors
 
-%   In seconds; `make fuzz-programs` takes longer.
+%   In seconds, more on a slow machine; `make fuzz-programs` takes longer.
 
 suite_deadline(Seconds) :-
     getenv('TYPHON_SUITE_SECONDS', Atom),
     atom_number(Atom, Seconds),
     !.
-suite_deadline(600).
+suite_deadline(Seconds) :-
+    patience(600, Seconds).
 
 %   Long suites begin early, so that all end at about the same time.
 
@@ -84,12 +87,33 @@ main(Argv) :-
     pairs_values(Pairs, Files),
     at_halt(kill_all_left_behind),
     on_signal(term, _, terminated),
+    measure_slowness,
     with_tmp_dir(run_suites(Files, Suites)),
     forall(member(Suite, Suites), print_failures(Suite)),
     foldl(add_suite, Suites, sum(0, 0, 0), Sum),
     print_sum(Sum),
     exit_status(Sum, Status),
+    note_passed(Names, Status),
     halt(Status).
+
+%   After all suites have passed, out/passed.pl has their times, for quick.pl.
+
+:- dynamic time/3.                      % File, Processor, Seconds
+
+note_passed([], 0) :-
+    project_file(out, Out),
+    catch(note_times(Out), error(_, _), true),
+    !.
+note_passed(_, _).
+
+note_times(Out) :-
+    make_directory_path(Out),
+    directory_file_path(Out, 'passed.pl', File),
+    setup_call_cleanup(
+        open(File, write, Stream, [encoding(utf8)]),
+        forall(( time(Path, Processor, Seconds), project_file(Suite, Path) ),
+               format(Stream, '~q.~n', [suite(Suite, Processor, Seconds)])),
+        close(Stream)).
 
 %   By default SIGTERM, which `timeout` sends, ends Prolog without at_halt/1.
 
@@ -175,7 +199,8 @@ suite_files([], Files) :-
     all_suites(Files).
 suite_files(Names, Files) :-
     maplist(named_suites, Names, Lists),
-    append(Lists, Files).
+    append(Lists, Files0),
+    sort(Files0, Files).
 
 named_suites(Name, Files) :-
     findall(File, suite_named(Name, File), Files),
@@ -282,6 +307,7 @@ end_suite(Job, Status, Suite) :-
     get_time(End),
     Seconds is End-Start,
     spent(Spent),
+    assertz(time(File, Spent, Seconds)),
     report(Suite, Problems, Seconds, Spent, Log).
 
 %   spent(-Seconds) is det.

@@ -27,6 +27,7 @@ packages that not every machine has.
 the whole process, so no other test should run meanwhile.
 */
 
+:- use_module(slowness, [patience/2]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(filesex),
               [ chmod/2,
@@ -163,13 +164,14 @@ set(Setting=Value) :-
 %
 %   Waits for Goal to become true, by polling.  It sleeps in between: waits
 %   for messages that are this short have been seen to spin for ever on a busy
-%   machine.
+%   machine.  On a slow machine the deadline is later, see slowness.pl.
 %
 %   @error timeout_error(wait_until, Goal)
 
 wait_until(Goal, Seconds) :-
     get_time(Now),
-    Deadline is Now+Seconds,
+    patience(Seconds, Longer),
+    Deadline is Now+Longer,
     poll(Goal, 0.001, Deadline).
 
 poll(Goal, _, _) :-

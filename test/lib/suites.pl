@@ -6,8 +6,8 @@
 
 /** <module> The test suites of this project, and their names
 
-A suite test/prolog/kernel/wire/test_frame.pl is named `frame`, or, with all
-others of its folder, `prolog/kernel/wire`.
+A suite test/prolog/kernel/wire/test_frame.pl is named `frame`, or by its path,
+or, with all others of its folder, `prolog/kernel/wire`.
 
 *Threading*: any thread.
 */
@@ -47,6 +47,9 @@ suite_named(Name, File) :-
 
 is_named(Name, File) :-
     suite_name(File, Name),
+    !.
+is_named(Name, File) :-
+    project_file(Name, File),
     !.
 is_named(Name, File) :-
     format(atom(Relative), 'test/~w', [Name]),
