@@ -10,6 +10,9 @@ SECONDS ?= 600
 COUNT ?= 100000
 SEED ?= 1
 TLS ?= false
+# Of `make stability`: busy processes beside, and the only processor used.
+BUSY ?= 0
+PIN ?=
 CELL ?= none
 # Of what is changed, see test/mutants/run.pl.
 PART ?= all
@@ -22,8 +25,8 @@ CHECKS = list_undefined, list_trivial_fails, list_format_errors, \
     list_redefined, list_void_declarations
 
 .PHONY: help tools tools-peers tools-all tools-ros demo demo-robots demo-ros \
-    demo-page page-tools thesis thesis-real test chaos scripted fuzz \
-    fuzz-programs hostile mutants check check-all \
+    demo-page page-tools thesis thesis-real test test-quick stability \
+    chaos scripted fuzz fuzz-programs hostile mutants check check-all \
     doc pictures vscode release bench bench-peers profile \
     test-portability install clean
 
@@ -64,6 +67,13 @@ thesis-real: tools      ## one case of each chapter, over sockets as well
 
 test: tools             ## install what is missing, run every test suite
 	@$(SWIPL) test/run.pl
+
+test-quick: tools       ## suites that the change touches, and some; two minutes
+	@$(SWIPL) test/quick.pl
+
+stability: tools        ## all suites RUNS=10 times, see test/stability.md; BUSY=8, PIN=0
+	@$(SWIPL) test/stability.pl -- --runs $(RUNS) --busy $(BUSY) \
+	    $(if $(PIN),--pin $(PIN))
 
 chaos: tools            ## attack networks, and journals; SECONDS=600, SEED=1
 	@$(SWIPL) test/chaos/run.pl -- --seconds $(SECONDS) --seed $(SEED)

@@ -23,11 +23,12 @@ there, too.
 :- use_module(changes, [file_rules/2]).
 :- use_module(copies, [with_copy/1, write_in_copy/3]).
 :- use_module('../lib/common', [project_file/2]).
+:- use_module('../lib/run_log', [suite_time/2]).
 :- use_module('../lib/suites', [all_suites/1, suite_name/2]).
 :- use_module(library(apply), [foldl/4]).
 :- use_module(library(filesex),
               [directory_file_path/3, directory_member/3, make_directory_path/1]).
-:- use_module(library(lists), [append/3, member/2, memberchk/2, subtract/3]).
+:- use_module(library(lists), [append/3, member/2, memberchk/2]).
 :- use_module(library(pairs), [group_pairs_by_key/2, pairs_values/2]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(readutil), [read_file_to_string/3, read_file_to_terms/3]).
@@ -159,16 +160,10 @@ run_suites(Copy, Names, Hits, Times) :-
         close(Out)),
     read_file_to_string(Log, Text, []),
     split_string(Text, "\n", "", Lines),
-    findall(Time, ( member(Line, Lines), suite_time(Line, Time) ), Times).
-
-%   test_x.pl   12 passed   1.0 s   1.2 s of processor
-
-suite_time(Line, time(Suite, Processor, Seconds)) :-
-    split_string(Line, " ", " ", Words0),
-    subtract(Words0, [""], [Suite, _, "passed", S, "s", P, "s", "of",
-                            "processor"]),
-    number_string(Seconds, S),
-    number_string(Processor, P).
+    findall(time(Suite, Processor, Seconds),
+            ( member(Line, Lines),
+              suite_time(Line, time(Suite, Processor, Seconds, 0)) ),
+            Times).
 
 write_coverage(Out, Hits, Numbers, Times, Paths, Former) :-
     forall(( member(Term, Former),
