@@ -1,0 +1,197 @@
+:- module(test_touched,
+          [ suite_times/1,              % -Times
+            touched_suites/2,           % +Files, -Suites
+            within_budget/4             % +Suites, +Budget, -Taken, -Left
+          ]).
+
+/** <module> The suites that a change touches
+
+Files are named from the directory of the project on.
+
+*Threading*: any thread.
+*/
+
+:- use_module(common, [project_file/2]).
+:- use_module(suites, [all_suites/1, suite_name/2]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(filesex),
+              [directory_file_path/3, directory_member/3]).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(pairs), [pairs_values/2]).
+:- use_module(library(readutil),
+              [read_file_to_string/3, read_file_to_terms/3]).
+
+%!  suite_times(-Times:list) is det.
+%
+%   time(Suite, Processor, Seconds) of each suite: of the last successful run of
+%   all suites, or of that for out/coverage.pl, or a guess.
+
+suite_times(Times) :-
+    (   member(Name, ['out/passed.pl', 'out/coverage.pl']),
+        terms(Name, Terms)
+    ->  true
+    ;   Terms = []
+    ),
+    findall(time(Suite, Processor, Seconds),
+            ( suite(Suite),
+              (   memberchk(suite(Suite, Processor, Seconds), Terms)
+              ->  true
+              ;   guess(Processor, Seconds)
+              ) ),
+            Times).
+
+guess(4, 10).
+
+suite(Suite) :-
+    all_suites(Paths),
+    member(Path, Paths),
+    project_file(Suite, Path).
+
+terms(Name, Terms) :-
+    project_file(Name, File),
+    exists_file(File),
+    read_file_to_terms(File, Terms, [encoding(utf8)]).
+
+%!  touched_suites(+Files:list, -Suites:list) is det.
+%
+%   The suites that changes of Files touch, as time/3: the nearest first, and
+%   of those the quickest. A suite that is changed itself is nearest, then come
+%   that of the same name, those of the same folder, and those that execute
+%   something of the file, according to out/coverage.pl, or name it.
+
+touched_suites(Files, Suites) :-
+    suite_times(Times),
+    change(Files, Change),
+    findall((Place-Processor)-time(Suite, Processor, Seconds),
+            ( member(time(Suite, Processor, Seconds), Times),
+              aggregate_all(min(P), place(Suite, Change, P), Place) ),
+            Pairs0),
+    keysort(Pairs0, Pairs),
+    pairs_values(Pairs, Suites).
+
+%   change(Files, Names, Folders, Executing, Texts): Names of files, Folders in
+%   which suites are near, the suites that execute one of Files.
+
+change(Files0, change(Files, Names, Folders, Executing, Texts)) :-
+    findall(Test-Text, test_text(Test, Text), Texts),
+    with_users(Files0, Texts, Files),
+    findall(Name, ( member(File, Files), plain_name(File, Name) ), Names),
+    findall(Folder, ( member(File, Files), folder(File, Folder) ), Folders),
+    ( terms('out/coverage.pl', Coverage) -> true ; Coverage = [] ),
+    findall(Suite,
+            ( member(executes(Suite, File, _), Coverage),
+              memberchk(File, Files) ),
+            Executing).
+
+plain_name(File, Name) :-
+    file_base_name(File, Base),
+    file_name_extension(Name, _, Base).
+
+%   place(+Suite, +Change, -Place) is nondet.
+
+place(Suite, change(Files, _, _, _, _), 0) :-
+    memberchk(Suite, Files).
+place(Suite, change(_, Names, _, _, _), 1) :-
+    suite_name(Suite, Name),
+    memberchk(Name, Names).
+place(Suite, change(_, _, Folders, _, _), 2) :-
+    file_directory_name(Suite, Folder),
+    memberchk(Folder, Folders).
+place(Suite, change(_, _, _, Executing, _), 3) :-
+    memberchk(Suite, Executing).
+place(Suite, change(Files, _, _, _, Texts), 3) :-
+    memberchk(Suite-Text, Texts),
+    member(File, Files),
+    names(Suite, Text, File).
+
+%   folder(+File, -Folder) is semidet: the nearest that has suites. Files below
+%   test/ are used by suites of any folder.
+
+folder(File, Folder) :-
+    \+ sub_atom(File, 0, _, _, 'test/'),
+    file_directory_name(File, Dir),
+    (   atom_concat('prolog/typhon/', Rest, Dir)
+    ->  atom_concat('prolog/', Rest, Mirrored)
+    ;   Mirrored = Dir
+    ),
+    with_suites(Mirrored, Folder).
+
+with_suites(., 'test/project') :-
+    !.
+with_suites(Dir, Folder) :-
+    directory_file_path(test, Dir, Folder0),
+    (   suite(Suite),
+        file_directory_name(Suite, Folder0)
+    ->  Folder = Folder0
+    ;   file_directory_name(Dir, Above),
+        with_suites(Above, Folder)
+    ).
+
+%   with_users(+Files, +Texts, -Changed): also the files of test/ that use
+%   changed files of test/, and so on; but suites are used by none.
+
+with_users(Files, Texts, Changed) :-
+    findall(Test,
+            ( member(Test-Text, Texts),
+              \+ memberchk(Test, Files),
+              \+ suite_name(Test, _),
+              member(File, Files),
+              sub_atom(File, 0, _, _, 'test/'),
+              names(Test, Text, File) ),
+            Users0),
+    sort(Users0, Users),
+    (   Users == []
+    ->  Changed = Files
+    ;   append(Users, Files, More),
+        with_users(More, Texts, Changed)
+    ).
+
+test_text(Test, Text) :-
+    project_file(test, Dir),
+    directory_member(Dir, Path, [recursive(true), extensions([pl])]),
+    project_file(Test, Path),
+    read_file_to_string(Path, Text, [encoding(utf8)]).
+
+%   names(+Test, +Text, +File) is semidet: as imports do, by the last two names
+%   of its path, or as a library, or, in the same folder, by its own.
+
+names(Test, Text, File) :-
+    name_of(Test, File, Name),
+    sub_string(Text, _, _, _, Name),
+    !.
+
+name_of(_, File, Name) :-
+    file_directory_name(File, Dir),
+    (   Dir == '.'
+    ->  Name = File
+    ;   file_base_name(Dir, Parent),
+        plain_name(File, Stem),
+        directory_file_path(Parent, Stem, Name)
+    ).
+name_of(_, File, Name) :-
+    atom_concat('prolog/', Rest, File),
+    file_name_extension(Library, pl, Rest),
+    format(atom(Name), 'library(~w)', [Library]).
+name_of(Test, File, Name) :-
+    file_directory_name(Test, Dir),
+    file_directory_name(File, Dir),
+    plain_name(File, Stem),
+    format(atom(Name), 'use_module(~w,', [Stem]).
+
+%!  within_budget(+Suites, +Budget, -Taken, -Left) is det.
+%
+%   Suites, a list of time/3, without those that Budget is too small for. It is
+%   budget(Processor, Seconds): the processor time of all together, and the
+%   seconds of the longest.
+
+within_budget([], _, [], []).
+within_budget([time(Suite, P, S)|Suites], budget(Processor, Longest), Taken,
+              Left) :-
+    (   P =< Processor,
+        S =< Longest
+    ->  Rest is Processor-P,
+        Taken = [time(Suite, P, S)|Taken1],
+        within_budget(Suites, budget(Rest, Longest), Taken1, Left)
+    ;   Left = [time(Suite, P, S)|Left1],
+        within_budget(Suites, budget(Processor, Longest), Taken, Left1)
+    ).
