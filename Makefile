@@ -16,6 +16,8 @@ PIN ?=
 CELL ?= none
 # Of what is changed, see test/mutants/run.pl.
 PART ?= all
+DOCUMENTS ?=
+TOUCHED ?=
 MAKEFLAGS += --no-print-directory
 ENTRY_POINTS = prolog/typhon.pl app/typhon.pl test/run.pl \
     experiments/study.pl bench/run.pl
@@ -114,10 +116,14 @@ hostile:                ## hostile agents on a guarded host; COUNT=100000, SEED=
 	@$(SWIPL) test/chaos/hostile.pl -- --count $(COUNT) --seed $(SEED) \
 	    --cell $(CELL)
 
-# COUNT is 300 here, if it is not given.
+# COUNT is 300 here, and the time not bounded, if they are not given.
+GIVEN = $(filter command,$(firstword $(origin $(1))))
 mutants: tools          ## take something away, look whether a test fails; COUNT, SEED, PART
 	@$(SWIPL) test/mutants/run.pl -- --seed $(SEED) --part $(PART) \
-	    --count $(if $(filter command,$(firstword $(origin COUNT))),$(COUNT),300)
+	    --count $(if $(call GIVEN,COUNT),$(COUNT),300) \
+	    $(if $(call GIVEN,SECONDS),--seconds $(SECONDS)) \
+	    $(if $(DOCUMENTS),--documents $(DOCUMENTS)) \
+	    $(if $(TOUCHED),--touched $(TOUCHED))
 
 pictures: tools page-tools ## make all pictures of README and doc; KINDS=page
 	@.ci/install page

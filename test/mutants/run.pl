@@ -8,7 +8,8 @@ Changes of the product, drawn at random or those that ../promises.pl declares,
 each run in a copy of the project with the suites that execute the changed
 predicate, until a test fails. Those are the suites of the file
 out/coverage.pl, which the first run records, in the time of all suites;
-`--record` records it anew, of the suites that are named, or of all.
+`--record` records it anew, of the suites that are named, or of all. Changes
+that are not tried within `--seconds` are counted.
 
 Printed are, of each change, the test that failed, or that it survived. The
 exit status is 1 if a change survived. A change in equivalent.pl
@@ -24,7 +25,8 @@ drawn.
 :- use_module(coverage,
               [load_coverage/1, record_coverage/2, suites_of/3]).
 :- use_module(equivalent, [equivalent_change/2]).
-:- use_module('../promises', [promise_change/3]).
+:- use_module('../promises', [promise/5, promise_change/3]).
+:- use_module('../lib/changed_files', [changed_files/1]).
 :- use_module('../lib/common', [project_file/2, with_tmp_dir/1]).
 :- use_module('../../app/typhon/arguments', [arguments/3]).
 :- use_module(library(aggregate), [aggregate_all/3]).
@@ -51,6 +53,10 @@ opt_type(record, record, boolean).
 opt_type(jobs, jobs, nonneg).
 opt_type(only, only, atom).
 opt_type(worker, worker, atom).
+opt_type(documents, documents, atom).
+opt_type(seconds, seconds, nonneg).
+opt_type(touched, touched, atom).
+opt_type(until, until, float).
 opt_help(count, 'changes at random (default 300)').
 opt_help(seed, 'of the draw (default 1)').
 opt_help(part, 'of the product (default all); declared: those of promises.pl').
@@ -58,6 +64,10 @@ opt_help(record, 'record anew which suites execute what').
 opt_help(jobs, 'changes at a time (default 2)').
 opt_help(only, 'only the declared change of this name').
 opt_help(worker, 'try the changes in this file').
+opt_help(documents, 'of the declared, those of these: security,wire').
+opt_help(seconds, 'begin no change later, in random order').
+opt_help(touched, 'only if a file of this part was changed').
+opt_help(until, 'of a worker: the end of --seconds').
 
 %   The suites that run for one change take about this long, in seconds of
 %   processor time.
@@ -96,7 +106,8 @@ part(all, Start) :-
 main(Argv) :-
     arguments(Argv, Names, Options),
     (   option(worker(File), Options)
-    ->  with_copy(work(File))
+    ->  option(until(Until), Options, 1.0e12),
+        with_copy(work(File, Until))
     ;   mutants([names(Names)|Options], Status),
         halt(Status)
     ).
@@ -106,15 +117,35 @@ mutants(Options, 0) :-
     !,
     option(names(Names), Options),
     record(Names).
+mutants(Options, 0) :-
+    option(touched(Part), Options),
+    changed_files(Files),
+    \+ ( member(File, Files), in_part(Part, File) ),
+    !,
+    format("no file of ~w was changed~n", [Part]).
 mutants(Options, Status) :-
-    chosen(Options, Mutants),
+    get_time(Now),
+    option(seconds(Seconds), Options, 1.0e9),
+    Until is Now+Seconds,
+    chosen(Options, Mutants0),
+    in_order(Options, Mutants0, Mutants),
     (   member(mutant(_, _, executing), Mutants),
         \+ recorded
     ->  record([])
     ;   true
     ),
-    with_tmp_dir(try(Mutants, Options, Results)),
-    report(Results, Status).
+    with_tmp_dir(try(Mutants, Options, Until, Results)),
+    report(Mutants, Results, Status).
+
+%   Another seed tries other changes, if there is no time for all.
+
+in_order(Options, Mutants0, Mutants) :-
+    option(seconds(_), Options),
+    !,
+    option(seed(Seed), Options, 1),
+    set_random(seed(Seed)),
+    random_permutation(Mutants0, Mutants).
+in_order(_, Mutants, Mutants).
 
 recorded :-
     project_file('out/coverage.pl', File),
@@ -143,7 +174,9 @@ chosen(Options, Mutants) :-
     option(part(declared), Options),
     !,
     findall(mutant(Name, Change, Suites),
-            promise_change(Name, Change, Suites), Mutants).
+            ( promise_of(Options, Name),
+              promise_change(Name, Change, Suites) ),
+            Mutants).
 chosen(Options, Mutants) :-
     option(part(Part), Options, all),
     option(count(Count), Options, 300),
@@ -158,6 +191,15 @@ chosen(Options, Mutants) :-
     first(Count, Different, Drawn),
     findall(mutant(N, Change, executing), nth1(N, Drawn, Change), Mutants).
 
+promise_of(Options, Name) :-
+    (   option(documents(Names), Options)
+    ->  atomic_list_concat(List, ',', Names),
+        member(Base, List),
+        format(atom(Document), 'doc/~w.md', [Base])
+    ;   true
+    ),
+    promise(Name, Document, _, _, _).
+
 is_equivalent(Change) :-
     equivalent_change(Change, _).
 
@@ -166,6 +208,9 @@ part_program(Part, File) :-
     project_file(Top, Dir),
     directory_member(Dir, Path, [recursive(true), extensions([pl])]),
     project_file(File, Path),
+    in_part(Part, File).
+
+in_part(Part, File) :-
     part(Part, Start),
     sub_atom(File, 0, _, _, Start).
 
@@ -189,10 +234,10 @@ first(Count, List, First) :-
 
 %   Workers are processes, each with a copy; they take turns.
 
-try(Mutants, Options, Results, Dir) :-
+try(Mutants, Options, Until, Results, Dir) :-
     option(jobs(Jobs), Options, 2),
     numlist(1, Jobs, Workers),
-    maplist(start_worker(Dir, Jobs, Mutants), Workers, Pids, Files),
+    maplist(start_worker(Dir, Jobs, Until, Mutants), Workers, Pids, Files),
     forall(member(Pid, Pids), process_wait(Pid, _)),
     findall(Result,
             ( member(File, Files),
@@ -201,7 +246,7 @@ try(Mutants, Options, Results, Dir) :-
             ),
             Results).
 
-start_worker(Dir, Jobs, Mutants, Worker, Pid, Results) :-
+start_worker(Dir, Jobs, Until, Mutants, Worker, Pid, Results) :-
     findall(Mutant,
             ( nth1(N, Mutants, Mutant), N mod Jobs =:= Worker mod Jobs ),
             Own),
@@ -213,20 +258,30 @@ start_worker(Dir, Jobs, Mutants, Worker, Pid, Results) :-
         close(Out)),
     project_file('test/mutants/run.pl', Run),
     process_create(path(swipl),
-                   [file(Run), '--', '--worker', file(File)],
+                   [file(Run), '--', '--worker', file(File), '--until', Until],
                    [ stdin(null), process(Pid) ]).
 
-work(File, Copy) :-
+work(File, Until, Copy) :-
     read_file_to_terms(File, Mutants, [encoding(utf8)]),
     project_file('out/coverage.pl', Coverage),
     ( exists_file(Coverage) -> load_coverage(Coverage) ; true ),
     atom_concat(File, '.results', Results),
     setup_call_cleanup(
         open(Results, write, Out, [encoding(utf8)]),
-        forall(member(Mutant, Mutants), try_one(Copy, Mutant, Out)),
+        forall(( member(Mutant, Mutants), left(Until, _) ),
+               try_one(Copy, Until, Mutant, Out)),
         close(Out)).
 
-try_one(Copy, mutant(Name, Change, Suites0), Out) :-
+%   left(+Until, -Seconds) is semidet.
+
+left(Until, Seconds) :-
+    get_time(Now),
+    Seconds is Until-Now,
+    Seconds > 0.
+
+%   A change whose suites were cut off is not tried.
+
+try_one(Copy, Until, mutant(Name, Change, Suites0), Out) :-
     change_suites(Suites0, Change, Suites),
     Change = change(File, _, _, _, _, _, _),
     project_file(File, Path),
@@ -236,11 +291,16 @@ try_one(Copy, mutant(Name, Change, Suites0), Out) :-
     get_time(Start),
     setup_call_cleanup(
         write_in_copy(Copy, File, Changed),
-        outcome(Suites, Copy, Outcome),
+        outcome(Suites, Copy, Until, Outcome),
         write_in_copy(Copy, File, Text)),
     get_time(End),
     Seconds is End-Start,
     change_text(Change, Line),
+    note_outcome(Out, Name, Line, Outcome, Seconds).
+
+note_outcome(_, _, _, cut_off, _) :-
+    !.
+note_outcome(Out, Name, Line, Outcome, Seconds) :-
     format(Out, '~q.~n', [result(Name, Line, Outcome, Seconds)]),
     flush_output(Out),
     print_outcome(Name, Line, Outcome, Seconds),
@@ -265,14 +325,22 @@ within_budget([suite(S, P, T)|Suites0], Sum0, Suites) :-
     ;   Suites = []
     ).
 
-outcome([], _, survived).
-outcome([suite(Suite, Processor, Seconds)|Suites], Copy, Outcome) :-
+outcome([], _, _, survived) :-
+    !.
+outcome(_, _, Until, cut_off) :-
+    \+ left(Until, _),
+    !.
+outcome([suite(Suite, Processor, Seconds)|Suites], Copy, Until, Outcome) :-
     Limit is ceiling(20+3*Processor),
-    Deadline is 120+5*Seconds,
+    left(Until, Left),
+    Deadline is min(Left, 120+5*Seconds),
     suite_in_copy(Copy, Suite, limits(Limit, Deadline), Result),
-    (   Result = killed(Test)
+    (   Result == killed(hangs),
+        \+ left(Until, _)
+    ->  Outcome = cut_off
+    ;   Result = killed(Test)
     ->  Outcome = killed(Suite, Test)
-    ;   outcome(Suites, Copy, Outcome)
+    ;   outcome(Suites, Copy, Until, Outcome)
     ).
 
 %   A variable that occurs once, since a goal is left out, is no test.
@@ -303,10 +371,13 @@ print_outcome(Name, Line, killed(Suite, Test), Seconds) :-
 print_outcome(Name, Line, survived, Seconds) :-
     format("~w SURVIVED ~1fs~n    ~s~n", [Name, Seconds, Line]).
 
-report(Results, Status) :-
+report(Mutants, Results, Status) :-
     aggregate_all(count, member(result(_, _, killed(_, _), _), Results),
                   Killed),
     length(Results, All),
+    length(Mutants, Chosen),
+    Untried is Chosen-All,
+    ( Untried > 0 -> format("~d not tried in time~n", [Untried]) ; true ),
     format("~d of ~d killed~n", [Killed, All]),
     forall(member(result(Name, Line, survived, _), Results),
            format("survived: ~w ~s~n", [Name, Line])),

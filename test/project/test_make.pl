@@ -3,10 +3,11 @@
 % The Makefile and the installer, with an apt-get that only records its calls.
 
 :- use_module('../lib/common').
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex),
-              [ chmod/2, directory_file_path/3, link_file/3 ]).
-:- use_module(library(lists), [member/2, subtract/3]).
+              [ chmod/2, copy_file/2, directory_file_path/3, link_file/3 ]).
+:- use_module(library(lists), [last/2, member/2, subtract/3]).
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(readutil),
@@ -144,3 +145,50 @@ test(failed_installation, Status == exit(1)) :-
     install_with(Rest, 3, Status, _).
 
 :- end_tests(installer).
+
+%   ci(+Passes, +Notices, -Status, -Last, -Made): .ci/run, where make is a
+%   program that notes what is Made, and whose targets `test` and `mutants` end
+%   with these statuses. Last is the last line.
+
+ci(Passes, Notices, Status, Last, Made) :-
+    with_tmp_dir(ci(Passes, Notices, Status, Last, Made)).
+
+ci(Passes, Notices, Status, Last, Made, Dir) :-
+    forall(member(Name, ['.ci', bin]),
+           ( directory_file_path(Dir, Name, New), make_directory(New) )),
+    project_file('.ci/run', Run),
+    maplist(directory_file_path(Dir),
+            ['.ci/run', '.ci/install', 'bin/make', bin, made],
+            [Copy, Install, Make, Bin, File]),
+    copy_file(Run, Copy),
+    shell_script(Install, "exit 0"),
+    format(string(Line),
+           "echo \"$@\" >> ~w\n\c
+            case $1 in\n\c
+            test) echo 3 passed, ~d failed; exit ~d ;;\n\c
+            mutants) echo 1 of 2 killed; exit ~d ;;\n\c
+            esac", [File, Passes, Passes, Notices]),
+    shell_script(Make, Line),
+    getenv('PATH', Path0),
+    atomic_list_concat([Bin, Path0], :, Path),
+    run(path(sh), [Copy], [environment(['PATH'=Path])], Status, Output),
+    split_string(Output, "\n", "\n", Lines),
+    last(Lines, Last),
+    read_file_to_string(File, Text, []),
+    split_string(Text, "\n", "\n", Made).
+
+:- begin_tests(continuous_integration).
+
+test(promises_of_security_are_tried_after_the_tests,
+     Status-Last == exit(0)-"3 passed, 0 failed") :-
+    ci(0, 0, Status, Last, ["tools-all", "test", Mutants]),
+    assertion(sub_string(Mutants, 0, _, _, "mutants PART=declared")).
+
+test(promise_that_no_test_notices_is_a_failure,
+     Status-Last == exit(1)-"3 passed, 0 failed") :-
+    ci(0, 1, Status, Last, _).
+
+test(failed_test_is_a_failure, Status-Last == exit(1)-"3 passed, 2 failed") :-
+    ci(2, 0, Status, Last, ["tools-all", "test"]).
+
+:- end_tests(continuous_integration).

@@ -1,7 +1,7 @@
 :- module(test_mutants_suite, []).
 :- use_module('../lib/common').
 :- use_module('../mutants/changes').
-:- use_module('../promises', [promise_problem/1]).
+:- use_module('../promises', [promise/5, promise_problem/1]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2, memberchk/2]).
@@ -86,3 +86,26 @@ test(each_has_an_anchor_a_test_and_its_text, Problems == []) :-
     findall(Problem, promise_problem(Problem), Problems).
 
 :- end_tests(promises).
+
+:- begin_tests(mutants_run).
+
+printed(Args, Lines) :-
+    project_file('test/mutants/run.pl', Run),
+    run_swipl([Run, --|Args], [timeout(200)], exit(0), Text, _),
+    split_string(Text, "\n", "\n", Lines).
+
+test(declared_changes_of_documents_within_a_time,
+     Lines == [Untried, "0 of 0 killed"]) :-
+    aggregate_all(count,
+                  ( member(Document, ['doc/security.md', 'doc/wire.md']),
+                    promise(_, Document, _, _, _) ),
+                  Count),
+    format(string(Untried), "~d not tried in time", [Count]),
+    printed(['--part', declared, '--documents', 'security,wire',
+             '--seconds', '0', '--jobs', '1'], Lines).
+
+test(nothing_if_no_file_of_the_part_was_changed,
+     Lines == ["no file of nothing was changed"]) :-
+    printed(['--part', declared, '--touched', nothing], Lines).
+
+:- end_tests(mutants_run).
