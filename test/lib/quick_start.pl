@@ -11,16 +11,7 @@
 :- use_module('../../prolog/typhon/network/children', []).
 :- use_module('../../prolog/typhon/options/journal', []).
 :- use_module('../../prolog/typhon/options/snapshot', []).
-:- use_module(library(aggregate), []).
-:- use_module(library(filesex), []).
-:- use_module(library(main), []).
-:- use_module(library(option), []).
-:- use_module(library(pairs), []).
-:- use_module(library(plunit), []).
-:- use_module(library(process), []).
-:- use_module(library(random), []).
-:- use_module(library(readutil), []).
-:- use_module(library(socket), []).
+:- use_module(quick_system, []).
 
 %   The processes of networks run this state, too: it has no goal of its own,
 %   for which the library avoids saved states.

@@ -1,5 +1,6 @@
 :- module(test_quick_swipl,
-          [ quick_swipl/2               % +Dir, -Program
+          [ quick_swipl/2,              % +Dir, -Program
+            quick_swipl/3               % +Start, +Dir, -Program
           ]).
 
 /** <module> A Prolog with a saved state of library(typhon)
@@ -17,14 +18,21 @@ process is this program, too; otherwise it behaves as `swipl`.
 :- use_module(library(process), [process_create/3, process_wait/2]).
 
 %!  quick_swipl(+Dir, -Program) is det.
+%!  quick_swipl(+Start, +Dir, -Program) is det.
 %
 %   Program is a file in Dir; or the `swipl` that runs this, if the file does
-%   not run: some find their libraries of C only from where they are.
+%   not run: some find their libraries of C only from where they are. Start is
+%   the file of this folder that is loaded: quick_start, or quick_system, which
+%   is no part of this tree.
 
 quick_swipl(Dir, Program) :-
+    quick_swipl(quick_start, Dir, Program).
+
+quick_swipl(Name, Dir, Program) :-
     current_prolog_flag(executable, Swipl),
     directory_file_path(Dir, swipl, Quick),
-    project_file('test/lib/quick_start.pl', Start),
+    format(atom(File), 'test/lib/~w.pl', [Name]),
+    project_file(File, Start),
     (   succeeds(Swipl, [ '-f', none, '-o', Quick, '-c', Start,
                           '--class=development', '--stand-alone=true',
                           '--autoload=false', '--on-error=print' ]),

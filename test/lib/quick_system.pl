@@ -1,0 +1,39 @@
+:- module(quick_system, []).
+
+% Libraries of SWI-Prolog that most processes load.
+
+:- use_module(library(aggregate), []).
+:- use_module(library(apply), []).
+:- use_module(library(assoc), []).
+:- use_module(library(broadcast), []).
+:- use_module(library(dcg/basics), []).
+:- use_module(library(dcg/high_order), []).
+:- use_module(library(debug), []).
+:- use_module(library(error), []).
+:- use_module(library(filesex), []).
+:- use_module(library(http/http_header), []).
+:- use_module(library(http/http_open), []).
+:- use_module(library(http/http_stream), []).
+:- use_module(library(http/json), []).
+:- use_module(library(http/websocket), []).
+:- use_module(library(lists), []).
+:- use_module(library(main), []).
+:- use_module(library(memfile), []).
+:- use_module(library(option), []).
+:- use_module(library(ordsets), []).
+:- use_module(library(pairs), []).
+:- use_module(library(plunit), []).
+:- use_module(library(predicate_options), []).
+:- use_module(library(process), []).
+:- use_module(library(random), []).
+:- use_module(library(readutil), []).
+:- use_module(library(record), []).
+:- use_module(library(settings), []).
+:- use_module(library(sgml), []).
+:- use_module(library(sha), []).
+:- use_module(library(socket), []).
+:- use_module(library(solution_sequences), []).
+:- use_module(library(uri), []).
+:- use_module(library(utf8), []).
+:- use_module(library(uuid), []).
+:- use_module(library(yall), []).
