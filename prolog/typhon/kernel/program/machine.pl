@@ -304,7 +304,8 @@ each_inside(_, _, _, _, _) :-
     fail.
 
 %   Errors that are not caught here pass unchanged: to catch and rethrow them
-%   would lose the place where they were raised.
+%   would lose the place where they were raised.  Prolog itself raises an abort
+%   again when the second goal of catch/3 ends, so no agent catches it.
 
 catching(Goal, Catcher, Recovery, Goals, X, Base, Out) :-
     Frame = Sub-catch(Sub,Catcher,Recovery),
@@ -314,8 +315,6 @@ catching(Goal, Catcher, Recovery, Goals, X, Base, Out) :-
     ;   fails_inside(Frame, Goals)
     ).
 
-recovered(caught(Ball), _, _, _, _, _, _), is_abort(Ball) =>
-    throw(Ball).
 recovered(caught(_), Recovery, Goals, _, X, Base, Out) =>
     step(call(Recovery), Goals, X, Base, Out).
 recovered(Out0, _, Goals, Frame, X, Base, Out) =>

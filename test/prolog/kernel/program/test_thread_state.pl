@@ -63,6 +63,7 @@ changes(prompt(_, 'test> '), prompt).
 changes(set_random(seed(1)), random_property).
 changes(( locale_create(L, 'C', [decimal_point(',')]), set_locale(L) ),
         current_locale).
+changes(set_prolog_stack(global, spare(400 000)), spare_stack).
 changes(mutex_lock(test_thread_state), status(test_thread_state)).
 changes(nb_setval(test_key, 1), nb_current(test_key)).
 changes(b_setval(test_key, 1), nb_current(test_key)).
@@ -90,6 +91,7 @@ null(S) :-
 
 look(style, Seen) :- !, '$style_check'(Seen, Seen).
 look(prompt, Seen) :- !, prompt(Seen, Seen).
+look(spare_stack, Seen) :- !, prolog_stack_property(global, spare(Seen)).
 look(random_property, Seen) :- !, random_property(state(Seen)).
 look(status(Mutex), Seen) :-
     !,
@@ -190,8 +192,19 @@ test(variables_travel_and_are_cloned, Values == [1,1]) :-
     with_hosts([alpha,beta], test_thread_state:travelled(Values)).
 test(an_agent_that_is_aborted_is_reported, Kinds == [aborted]) :-
     with_hosts([alpha], test_thread_state:aborted(Kinds)).
+test(an_abort_cannot_be_caught,
+     [ forall(catches(Goal)), true(Outcome-Left == disposed-[]) ]) :-
+    with_hosts([alpha],
+               ( capturing(( create([(main :- Goal, leave(survived))], A),
+                             joined(A, Outcome) ), _),
+                 remote(alpha, findall(X, sense(X), Left)) )).
 
 :- end_tests(thread_state).
+
+catches(catch(system:abort, _, true)).
+catches(catch(( sleep(0), system:abort ), _, true)).
+catches(catch(( sleep(0), catch(system:abort, _, true) ), _, sleep(0))).
+catches(catch(system:abort, _, ( true ; sleep(0) ))).
 
 travelled([Value,Cloned]) :-
     create([ (main :- nb_setval(n, 1), move(beta), nb_getval(n, N),
