@@ -236,9 +236,11 @@ test(goal_that_cannot_travel, true(F = [s(mobile_term),s(alpha)])) :-
                            error(type_error(E, _), _), assertz(s(E))),
                      name(N), assertz(s(N))),
             (name(N) :- here(A), atomic_list_concat([N,_], @, A)) ], F).
-test(state_that_cannot_travel, true(F = [r(mobile_term)|_])) :-
-    lives([ (main :- current_output(S), assertz(s(S)),
-                     catch(move(beta), error(type_error(E, _), _),
+test(state_that_cannot_travel,
+     [ forall(member(First-To, [true-beta, move(beta)-alpha])),
+       true(F = [r(mobile_term)|_]) ]) :-
+    lives([ (main :- First, current_output(S), assertz(s(S)),
+                     catch(move(To), error(type_error(E, _), _),
                            assertz(r(E)))) ], F).
 %   Stored goals would keep the variable and lose its attribute.
 
@@ -400,6 +402,21 @@ test(no_capacity_for_a_clone_on_another_host,
 test(clone_to_a_missing_host, true(F = [s(host_unreachable(_))])) :-
     lives([(main :- catch(clone('gamma@127.0.0.1:1', _), error(E, _),
                           assertz(s(E))))], F).
+test(clone_has_the_tokens_of_its_parent,
+     [ forall(member(Clone, [clone(_), clone(beta, _)])), true(Hs == [B,B]) ]) :-
+    with_hosts([alpha,beta-[tokens([red])]],
+               ( address(beta, B),
+                 create([on_message(_, _), (main :- Clone, move(beta))], P,
+                        [tokens([red])]),
+                 wait_until(two_residents(P, C), 10),
+                 findall(H, ( member(A, [P,C]), agent_property(A, host(H)) ),
+                         Hs) )).
+test(clone_is_born_on_the_host_of_its_parent, true(H == B)) :-
+    with_hosts([alpha,beta],
+               ( address(beta, B),
+                 create([on_message(_, _), (main :- move(beta), clone(_))], P),
+                 wait_until(two_residents(P, C), 10),
+                 agent_property(C, home(H)) )).
 test(payloads_are_cloned, F == [s(7),s(7)]) :-
     with_hosts([alpha],
                ( create([on_message(_, _),
@@ -858,6 +875,21 @@ test(hopping_agent_takes_orders, O == disposed) :-
                           payload_detach(A, P) )),
                  agent_dispose(A),
                  joined(A, O) )).
+test(order_is_taken_before_a_message, true(H == B)) :-
+    setup_call_cleanup(
+        message_queue_create(Queue, [alias(test_agent)]),
+        with_hosts([alpha,beta],
+                   ( address(beta, B),
+                     create([ (on_message(_, wait) :-
+                                   thread_get_message(test_agent, go)),
+                              (on_message(_, ask) :- here(X), assertz(s(X))) ],
+                            A, [host(alpha)]),
+                     maplist(agent_send(A), [wait,ask]),
+                     wait_state(A, running),
+                     agent_move(A, beta),
+                     thread_send_message(Queue, go),
+                     wait_until(fact_of(A, s(H)), 10) )),
+        message_queue_destroy(Queue)).
 
 :- end_tests(orders).
 
@@ -877,7 +909,7 @@ test(all, true(Ps =@= [ facts([s(1)]), goals([receive(_-go),foo]), home(A),
                  wait_state(Agent, waiting),
                  findall(P, agent_property(Agent, P), Ps0),
                  sort(Ps0, Ps) )).
-test(host_and_home_by_name, As-Bs == [A]-[A,B]) :-
+test(host_and_home_by_name, As-Bs == [A]-Both) :-
     with_hosts([alpha,beta],
                ( create([on_message(_, _)], A),
                  create([on_message(_, _)], B),
@@ -885,7 +917,8 @@ test(host_and_home_by_name, As-Bs == [A]-[A,B]) :-
                  wait_until(agent_property(B, host(beta)), 10),
                  findall(X, agent_property(X, host(alpha)), As),
                  findall(X, agent_property(X, home(alpha)), Bs0),
-                 sort(Bs0, Bs) )).
+                 sort(Bs0, Bs),
+                 sort([A,B], Both) )).
 test(unknown, [fail]) :-
     with_hosts([alpha],
                ( address(alpha, Address),
@@ -1106,12 +1139,13 @@ test(goal_in_a_place_cannot_move_agents,
                  joined(A, done),
                  lives_([(main :- catch(trip, error(E, _), assertz(s(E))))],
                         [], F) )).
-test(no_goal_sleeps_where_an_agent_cannot_stop,
-     true(F == [s(permission_error(call, control_predicate, sleep/1))])) :-
-    with_hosts([alpha],
-               lives_([(main :- Goal = sleep(0.1),
-                                catch(findall(x, Goal, _), error(E, _), true),
-                                assertz(s(E)))], [], F)).
+test(no_agent_stops_inside_a_native_goal,
+     [ forall(member(Goal, [ move(beta), clone(_), clone(beta, _), sleep(0.1),
+                             receive(_), receive(_, 0), dispose ])),
+       true(F == [s(permission_error(call, control_predicate, Name/Arity))]) ]) :-
+    functor(Goal, Name, Arity),
+    lives([(main :- G = Goal, catch(findall(x, G, _), error(E, _), true),
+                    assertz(s(E)))], F).
 test(missing_file, error(existence_error(source_sink, nothing))) :-
     with_hosts([alpha], create([main], _, [payloads([nothing])])).
 

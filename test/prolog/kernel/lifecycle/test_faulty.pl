@@ -264,8 +264,8 @@ test(resumed_before_its_home_is_notified, true(Os == [done])) :-
 test(resumed_with_another_program, true(O == done)) :-
     on([alpha,beta],
        ( faulty([(main :- p, move(beta)), (p :- _ is a+1)], A),
-         agent_change(A, program(clauses([ (:- agent(new, [state([s/1])])),
-                                           main, (p :- assertz(s(1))) ]))),
+         agent_change(A, program(clauses([ (:- agent(new, [state([t/1])])),
+                                           main, (p :- \+ t(_)) ]))),
          agent_property(A, program(new)),
          agent_resume(A),
          joined(A, O) )).

@@ -44,6 +44,21 @@ test(image_arrives_twice, true(Answer == accepted)) :-
                  sent(Image, accepted),
                  arrived(Image),
                  sent(Image, Answer) )).
+test(hop_that_came_before_is_recognised, true(Loads == [1,1,0])) :-
+    with_hosts([alpha],
+               ( image([], First),
+                 sent(First, accepted),  % with the program
+                 arrived(First),
+                 arg(1, First, A),
+                 agent_dispose(A),
+                 image([], Image),
+                 arg(1, Image, B),
+                 findall(Load,
+                         ( member(Goal, [true, true, agent_dispose(B)]),
+                           call(Goal),
+                           handed(Image),
+                           host_property(alpha, load(Load)) ),
+                         Loads) )).
 test(invalid_image_leaves_nothing) :-
     with_hosts([alpha],
                ( image([], Good),
@@ -104,6 +119,16 @@ sent(Image, Program, Answer) :-
     endpoint_address(Endpoint),
     endpoint_call(Endpoint, hop, hop(alpha, Image, Program),
                   answer(Answer), 10).
+
+%   By a frame that hands the agent over.
+
+handed(image(Id, Hash, Life, State, Goals, Mail, Since)) :-
+    once(typhon_endpoint:handed(hop,
+                                hop(alpha,
+                                    image(Id, Hash, Life, State, _-Goals, Mail,
+                                          Since),
+                                    known),
+                                '127.0.0.1:1', accepted)).
 
 arrived(Image) :-
     arg(1, Image, Id),

@@ -147,6 +147,32 @@ test(unserializable_agent_raises_at_the_move,
                         (go(S) :- to(B1), move(B1), atom(S)),
                         to(B) ]), _, [host(a)])),
           wait_until(peer_do(a, remote(a, take(raised(Error)))), 20) )).
+test(agent_that_stays_keeps_its_mail,
+     [ forall(stays(Change, Held)), Mail == [1,2,3] ]) :-
+    with_peers([a, b],
+        ( peer_host(a, A),
+          peer_host(b, B),
+          travel(a, [B, A], 4),
+          peer_do(b, host_change(b, Change)),
+          peer_do(a, agent_create(
+              clauses([ (:- agent(stayer, [state([got/1])])),
+                        (main :- receive(_-go), held(S),
+                                 catch(( move(B), atom(S) ), error(_, _),
+                                       true),
+                                 hear),
+                        (hear :- (   receive(_-M, 0)
+                                 ->  assertz(got(M)), hear
+                                 ;   findall(M, got(M), Ms), leave(mail(Ms))
+                                 )),
+                        Held ]), Id, [host(a)])),
+          forall(member(M, [1,2,3,go]), peer_do(a, agent_send(Id, M))),
+          wait_until(peer_do(a, remote(a, take(mail(Mail)))), 20) )).
+
+%   stays(?Change, ?Held): the host changes, or the agent cannot travel.
+
+stays(tokens([red]), held(none)).
+stays(capacity(0), held(none)).
+stays(tokens([]), (held(S) :- stream_property(S, alias(user_error)))).
 
 :- end_tests(not_accepted).
 

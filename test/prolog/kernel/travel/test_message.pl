@@ -116,6 +116,14 @@ test(message_to_an_unreachable_process_is_dropped_after_a_time,
                                          wait_until(was_printed(warning, _),
                                                     60) ),
                                        M))).
+test(message_from_elsewhere_to_an_ended_agent_is_dropped, M == []) :-
+    with_hosts([alpha],
+               capturing(( create([main], A),
+                           joined(A, done),
+                           collector(B, []),
+                           passed_on(A, hello),
+                           passed_on(B, hello),
+                           wait_until(has_all(B, 1), 10) ), M)).
 test(messages_arrive_in_order, true(Ns == Sent)) :-
     numlist(1, 1000, Sent),
     with_hosts([alpha],

@@ -4,6 +4,7 @@
 :- use_module('../../../lib/peers').
 :- use_module(library(plunit)).
 :- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(typhon)).
 
@@ -217,6 +218,10 @@ test(ties_are_drawn, Nexts == [a, c]) :-
                    ( between(1, 30, _), next_from(b, fire, Next) ),
                    All),
            sort(All, Nexts) )).
+test(ties_are_drawn_alike_in_any_order, true(First == Second)) :-
+    line([a, b, c],
+         ( tie_draws([a, c], First),
+           tie_draws([c, a], Second) )).
 test(trail_over_a_lost_link_is_abandoned, Next == c) :-
     line([a, b, c],
          ( emit(a, fire),
@@ -225,6 +230,24 @@ test(trail_over_a_lost_link_is_abandoned, Next == c) :-
            next_from(b, fire, Next) )).
 
 :- end_tests(pheromone_follow).
+
+%   The hosts chosen with seeds, of two equally strong pheromones, which came to
+%   b in the order of their Sources.
+
+tie_draws(Sources, Hosts) :-
+    forall(append(Before, [Source|_], Sources),
+           ( emit(Source, fire),
+             length([_|Before], Count),
+             wait_until(( at(b, fire, Found), length(Found, Count) ), 10) )),
+    maplist(address, [a,b,c], [A,B,C]),
+    findall(Host,
+            ( between(1, 20, Seed),
+              typhon_strategy:strategy_memory(Seed, Memory),
+              typhon_strategy:next_host(phercon(fire), [A,C], B, Memory, Host,
+                                        _) ),
+            Hosts),
+    forall(member(Source, Sources), remote(Source, withdraw(fire))),
+    gone(b, fire).
 
 :- begin_tests(pheromone_network).
 

@@ -2,11 +2,12 @@
 :- use_module('../../../lib/common').
 :- use_module(library(plunit)).
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(apply), [foldl/4]).
+:- use_module(library(apply), [foldl/4, maplist/3]).
 :- use_module(library(lists), [last/2, member/2, numlist/3, sum_list/2]).
 :- use_module(library(random), [random_permutation/2]).
 :- use_module(library(terms), [term_size/2]).
 :- use_module(library(yall)).
+:- use_module(library(typhon)).
 :- use_module(library(typhon/options/migration/strategy)).
 :- use_module(library(typhon/kernel/base/prng)).
 
@@ -204,6 +205,34 @@ covering([Host|Path], Seen0, Steps) :-
     ).
 
 :- end_tests(migration_strategies).
+
+:- begin_tests(choices_of_agents).
+
+test(choices_follow_the_seed_in_real_time, true(( A == B, A \== C ))) :-
+    maplist(chosen, [3,3,4], [A,B,C]).
+
+:- end_tests(choices_of_agents).
+
+%   Each in a process of its own: the seed and the number of the agent count.
+
+chosen(Seed, Text) :-
+    module_property(test_strategy, file(Here)),
+    format(atom(Goal), "test_strategy:choose(~d)", [Seed]),
+    run_swipl(['-g', Goal, '-t', halt, Here], [], exit(0), Text, _).
+
+choose(Seed) :-
+    network_start(mesh(6), Network, [seed(Seed)]),
+    network_property(Network, hosts([Host|_])),
+    agent_create(clauses([ (:- agent(chooser)),
+                           (main :- findall(H, ( between(1, 30, _),
+                                                 next_host(random, H) ), Hs),
+                                    result(Hs)) ]),
+                 Agent, [host(Host)]),
+    agent_result(Agent, Chosen, 10),
+    forall(( member(Address, Chosen),
+             atomic_list_concat([Name,_], @, Address) ),
+           writeln(Name)),
+    network_stop(Network).
 
 :- begin_tests(strategies_of_others).
 

@@ -103,6 +103,39 @@ test(messages_and_orders, true(Got-Ended == [1,2,3]-disposed)) :-
                    remote(Host, take(got(Got))),
                    agent_dispose(Box),
                    agent_join(Box, Ended, 10) )).
+test(time_stands_still_while_an_agent_is_ready, true(Time == 0.0)) :-
+    with_virtual([], N,
+                 ( sleeper(N, sleep(10), _),
+                   first_host(N, Host),
+                   findall(A, ( member(_, [1,2]), player(Host, A) ), [A,B]),
+                   agent_send(A, with(B)),
+                   agent_send(B, with(A)),
+                   agent_result(A, Time, 20) )).
+test(agents_run_in_the_order_in_which_they_became_ready,
+     true(Turns == [1,2,3,1,2,3,1,2,3,1,2,3])) :-
+    with_virtual([], N,
+                 setup_call_cleanup(
+                     message_queue_create(Queue, [alias(test_virtual)]),
+                     ( first_host(N, Host),
+                       findall(A, ( member(I, [1,2,3]), hopper(Host, I, A) ),
+                               As),
+                       forall(member(A, As), agent_join(A, done, 10)),
+                       noted(Queue, Turns) ),
+                     message_queue_destroy(Queue))).
+test(network_clock_counts_from_its_start, true) :-
+    get_time(T0),
+    no_leaks(setup_call_cleanup(
+                 network_start(ring(2), N, [clock(10)]),
+                 ( get_time(T1),
+                   shows(N, Now1),
+                   get_time(T2),
+                   network_advance(N, 1),
+                   get_time(T3),
+                   shows(N, Now2),
+                   get_time(T4) ),
+                 network_stop(N))),
+    between_times(0, 10*(T2-T0), Now1),
+    between_times(10*(T3-T2), 10*(T4-T1), Now2-Now1).
 test(order_is_executed_while_its_caller_waits) :-
     with_virtual([], N,
                  ( sleeper(N, sleep(10), A),
@@ -111,6 +144,30 @@ test(order_is_executed_while_its_caller_waits) :-
                    agent_join(B, done, 100) )).
 
 :- end_tests(virtual_time).
+
+%   Players exchange messages; each hop of a hopper is noted.
+
+player(Host, Agent) :-
+    agent_create(clauses([ (:- agent(player)),
+                           (main :- receive(_-with(B)), play(B, 50),
+                                    now(T), result(T)),
+                           (play(_, 0) :- !),
+                           (play(B, K) :- send(B, ball(K)), receive(_-ball(K)),
+                                          K1 is K-1, play(B, K1)) ]),
+                 Agent, [host(Host)]).
+
+hopper(Host, I, Agent) :-
+    agent_create(clauses([ (:- agent(hopper)),
+                           (main :- hop(4)),
+                           (hop(0) :- !),
+                           (hop(K) :- thread_send_message(test_virtual, I),
+                                      neighbours([H|_]), move(H), K1 is K-1,
+                                      hop(K1)) ]),
+                 Agent, [host(Host)]).
+
+between_times(Min, Max, X) :-
+    X >= Min,
+    X =< Max.
 
 :- begin_tests(virtual_appointments).
 
@@ -123,6 +180,15 @@ test(appointments_run_in_order, true(Heard == [a-1.0,b-2.0,c-2.0,late-3.0])) :-
                               network_advance(N, 3),
                               network_at(N, 1, note_time(Queue, N, late)),
                               network_advance(N, 10),
+                              noted(Queue, Heard) ))).
+test(appointments_of_an_instant_run_in_their_order, true(Heard == Numbers)) :-
+    numlist(1, 20, Numbers),
+    with_virtual([], N,
+                 with_queue(Queue,
+                            ( forall(member(I, Numbers),
+                                     network_at(N, 2, thread_send_message(
+                                                          Queue, I))),
+                              network_advance(N, 3),
                               noted(Queue, Heard) ))).
 test(no_appointment_after_the_end, true(Heard == [])) :-
     with_queue(Queue,
