@@ -98,7 +98,7 @@ promise(faulty_agent_takes_no_capacity, [faulty, agent],
         "        assertz(kept(Id)),\n\c
          \s       host_leave(Host)\n"-
         "        assertz(kept(Id))\n").
-promise(faulty_agent_answers_at_once, faulty,
+promise(faulty_agent_answers_at_once, results,
         'prolog/typhon/kernel/travel/home.pl',
         "    put_fault(Id, Outcome, Hops-Stamp),\n\c
          \s   waiters(Id, Askers)."-
@@ -114,13 +114,10 @@ promise(faulty_agent_takes_orders, [faulty, agent],
         "idle(faulty(_)).\n"-
         "").
 promise(faulty_until_resumed, faulty,
-        'prolog/typhon/kernel/lifecycle/orders.pl',
-        "    (   is_faulty(Goals, _, _)\n\c
-         \s   ->  agent_stays(Id, Goals)\n\c
-         \s   ;   ignore("-
-        "    (   fail\n\c
-         \s   ->  agent_stays(Id, Goals)\n\c
-         \s   ;   ignore(").
+        'prolog/typhon/kernel/lifecycle/effect.pl',
+        "effect('$fault'(Fault), '$fault'(Fault), Goals, Id-_, stop) :-\n\c
+         \s   agent_stays(Id, Goals)."-
+        "effect('$fault'(_), true, Goals, _, go(Goals)).").
 promise(new_program_applies_to_later_calls, faulty,
         'prolog/typhon/tools/administration/change.pl',
         "    append(PIs, Empty, Declared),\n"-
@@ -334,8 +331,8 @@ promise(sleep_continues_after_an_order, agent,
          \s       wait(").
 promise(failed_order_is_reported, agent,
         'prolog/typhon/kernel/travel/transfer.pl',
-        "    ;   report(warning, failed_orders, Id, typhon(order_failed(Id, Formal)))\n"-
-        "    ;   true\n").
+        "report(warning, failed_orders, Id, typhon(order_failed(Id, Formal)))"-
+        "true").
 promise(move_can_be_awaited, moves,
         'prolog/typhon/kernel/lifecycle/orders.pl',
         "    move_awaited(Id, Asker),\n\c
@@ -438,20 +435,24 @@ promise(mail_from_elsewhere_fits, full_mailbox,
         "        Space is Max,\n").
 promise(lost_mail_from_elsewhere_is_reported, full_mailbox,
         'prolog/typhon/kernel/travel/routing.pl',
-        "    ( Rest == [] -> true ; mail_lost(resource_error(mailbox), Id, Rest) )."-
-        "    Rest = Rest.").
+        "mail_lost(resource_error(mailbox), Id, Rest) )."-
+        "true ).").
 promise(platform_messages_fit, full_mailbox,
         'prolog/typhon/kernel/agent/mailbox.pl',
-        "    Count >= Max,\n\c
-         \s   From \\== system."-
-        "    Count >= Max,\n\c
-         \s   atomic(From).").
+        "    ( Space > 0 ; Mail = mail(_, system, _) ),\n"-
+        "    Space > 0,\n").
 promise(hop_is_taken_once, arrival,
         'prolog/typhon/kernel/travel/arrival.pl',
         "        Hops0 >= Hops\n\c
          \s   ;   gone_on"-
         "        Hops0 > Hops\n\c
          \s   ;   gone_on").
+promise(hop_is_taken_once_after_the_end, arrival,
+        'prolog/typhon/kernel/travel/arrival.pl',
+        "    ;   agent_heard_of(Id, Hops0),\n\c
+         \s       Hops0 >= Hops\n"-
+        "    ;   agent_heard_of(Id, Hops0),\n\c
+         \s       Hops0 > Hops\n").
 promise(hop_is_taken_once_on_the_short_path, arrival,
         'prolog/typhon/kernel/travel/hand_over.pl',
         "    \\+ agent_on(Id, _),\n\c
@@ -467,8 +468,8 @@ promise(ended_agent_does_not_come_again, arrival,
          %!  whereabouts").
 promise(global_variables_survive_stops, thread_state,
         'prolog/typhon/kernel/program/thread_state.pl',
-        "             ( is_storable(Fact) -> assertz(Agent:Fact) ; true ) ))."-
-        "             ( \\+ is_storable(Fact) -> assertz(Agent:Fact) ; true ) )).").
+        "             ( is_storable(Fact) ->"-
+        "             ( \\+ is_storable(Fact) ->").
 promise(thread_is_restored, thread_state,
         'prolog/typhon/kernel/program/thread_state.pl',
         "noted(set_prolog_stack(Stack, Property), stack(Stack, Name)) :-\n\c

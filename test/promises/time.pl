@@ -98,10 +98,9 @@ promise(choices_follow_the_seed, strategy,
         "    Seed0-Name-Number-HomeName = _,\n\c
          \s   Seed is random(1<<30).").
 promise(called_goal_cannot_wait, virtual,
-        'prolog/typhon/options/virtual.pl',
-        "    loop(Thread, Loop),\n\c
-         \s   \\+ thread_self(Thread),\n"-
-        "    loop(_, Loop),\n").
+        'prolog/typhon/kernel/lifecycle/join.pl',
+        "outcome_received(_, timeout)."-
+        "outcome_received(_, unknown).").
 promise(virtual_network_is_one_process, virtual,
         'prolog/typhon/network/plan.pl',
         "elsewhere(processes(P)) :-\n\c
@@ -110,8 +109,8 @@ promise(virtual_network_is_one_process, virtual,
 promise(virtual_host_reaches_no_process, virtual,
         'prolog/typhon/kernel/host/runtime.pl',
         "    time_apart(Kind, Address),\n"-
-        "    time_apart(Kind, Address0),\n\c
-         \s   atom_concat(Address0, 0, Address),\n").
+        "    Kind == none,\n\c
+         \s   time_apart(Kind, Address),\n").
 promise(one_kind_of_time, virtual,
         'prolog/typhon/kernel/host/runtime.pl',
         "must_agree(time(Kind)) :-\n\c

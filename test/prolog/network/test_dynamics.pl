@@ -71,6 +71,12 @@ test(repeatable, Changes == Again) :-
 test(other_seed_other_changes, true(Changes \== Others)) :-
     history(random_links, grid(6, 10), 3, 300, _, _, Changes),
     history(random_links, grid(6, 10), 4, 300, _, _, Others).
+test(order_of_listed_links_does_not_matter,
+     [ forall(member(Model, [ toggle(uniform(1, 2), 0.5, 0.5),
+                              links(uniform(1, 2), 0.5, 0.5) ])),
+       Changes == Others ]) :-
+    history(Model, edges([1-2,3-4,2-3,2-4]), 3, 60, _, _, Changes),
+    history(Model, edges([1-2,3-4,2-4,2-3]), 3, 60, _, _, Others).
 test(changes_lead_to_the_current_links,
      [ forall(member(M, [random_links, thesis_4_4_7, dynamic_1, dynamic_2])),
        true(Links == Last) ]) :-

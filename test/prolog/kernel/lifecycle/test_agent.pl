@@ -239,7 +239,8 @@ test(goal_that_cannot_travel, true(F = [s(mobile_term),s(alpha)])) :-
 test(state_that_cannot_travel,
      [ forall(member(First-To, [true-beta, move(beta)-alpha])),
        true(F = [r(mobile_term)|_]) ]) :-
-    lives([ (main :- First, current_output(S), assertz(s(S)),
+    lives([ s(0),
+            (main :- First, current_output(S), assertz(s(S)),
                      catch(move(To), error(type_error(E, _), _),
                            assertz(r(E)))) ], F).
 %   Stored goals would keep the variable and lose its attribute.

@@ -39,7 +39,7 @@ test(program_with_another_hash,
                          sent(Image, accepted),
                          arrived(Image) ))).
 test(image_arrives_twice, true(Answer == accepted)) :-
-    with_hosts([alpha],
+    with_hosts([alpha-[capacity(1)]],   % full when it comes again
                ( image([], Image),
                  sent(Image, accepted),
                  arrived(Image),

@@ -1,6 +1,7 @@
 :- module(test_virtual, []).
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/fixtures').
+:- use_module('../../../lib/peers').
 :- use_module(library(plunit)).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(lists), [member/2, numlist/3, sum_list/2]).
@@ -355,13 +356,15 @@ test(single_virtual_host, true(Time == 9.0)) :-
                  agent_join(A, done, 20),
                  remote(one, now(Time)) )).
 test(other_processes_are_unreachable, true(Outcome == done)) :-
-    with_hosts([one-[clock(virtual)]],
-               ( agent_create(clauses([(:- agent(a)),
-                                       (main :- catch(move('x@127.0.0.1:9'),
-                                                      error(E, _), true),
-                                                E = host_unreachable(_))]),
-                              A),
-                 agent_join(A, Outcome, 20) )).
+    with_peers([a],
+               ( peer_host(a, Far),
+                 with_hosts([one-[clock(virtual)]],
+                            ( agent_create(clauses(
+                                  [ (:- agent(a)),
+                                    (main :- catch(move(Far), error(E, _), true),
+                                             E == host_unreachable(Far)) ]),
+                                           A),
+                              agent_join(A, Outcome, 20) )) )).
 test(endless_goal_is_reported) :-
     stuck_warning(( repeat, fail ), virtual_stuck(_, _)).
 test(endless_instant_is_reported) :-
