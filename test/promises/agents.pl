@@ -454,10 +454,13 @@ promise(hop_is_taken_once_after_the_end, arrival,
         "    ;   agent_heard_of(Id, Hops0),\n\c
          \s       Hops0 > Hops\n").
 promise(hop_is_taken_once_on_the_short_path, arrival,
-        'prolog/typhon/kernel/travel/hand_over.pl',
-        "    \\+ agent_on(Id, _),\n\c
-         \s   \\+ backlog"-
-        "    \\+ backlog").
+        'prolog/typhon/kernel/travel/whereabouts.pl',
+        "    home_knows(Id, _, Hops0, _),\n\c
+         \s   !,\n\c
+         \s   Hops0 < Hops,\n"-
+        "    home_knows(Id, _, Hops0, _),\n\c
+         \s   !,\n\c
+         \s   integer(Hops0),\n").
 promise(ended_agent_does_not_come_again, arrival,
         'prolog/typhon/kernel/travel/whereabouts.pl',
         "         Hops0 >= Hops ).\n\c
@@ -478,8 +481,9 @@ promise(thread_is_restored, thread_state,
          \s   (").
 promise(process_predicates_raise, thread_state,
         'prolog/typhon/kernel/program/thread_state.pl',
-        "              cancel_halt/1 ])."-
-        "              cancel_halt/0 ]).").
+        "refused_now(thread_detach(Thread), 'the platform joins this thread') :-\n\c
+         \s   thread_self(Thread).\n"-
+        "").
 promise(abort_ends_the_agent, thread_state,
         'prolog/typhon/kernel/lifecycle/turn.pl',
         "    ;   Outcome = disposed\n\c

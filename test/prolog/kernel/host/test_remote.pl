@@ -50,6 +50,12 @@ test(refused_remote_goal, error(permission_error(remote, host, alpha))) :-
     with_hosts([alpha-[remote(false)]], remote(alpha, true)).
 test(unknown_host, error(existence_error(host, nowhere))) :-
     with_hosts([alpha], remote(nowhere, true)).
+test(unknown_host_of_a_process, error(existence_error(host, _))) :-
+    with_hosts([alpha],
+               ( address(alpha, Alpha),
+                 atom_concat(alpha, Endpoint, Alpha),
+                 atom_concat(nowhere, Endpoint, Nowhere),
+                 remote(Nowhere, true) )).
 test(unbound_host, error(instantiation_error)) :-
     with_hosts([alpha], remote(_, true)).
 test(unbound_goal, error(instantiation_error)) :-

@@ -138,6 +138,12 @@ refused(at_halt(_)).
 refused(on_signal(_, _, _)).
 refused(working_directory(_, '/')).
 refused(umask(_, 0)).
+refused(thread_detach(Me)) :-
+    thread_self(Me).
+refused(cancel_halt(_)).
+refused(protocol(_)).
+refused(detach_IO).
+refused(chdir('/')).
 refused(set_stream(user_output, tty(false))).
 refused(set_stream(_, alias(user_error))).
 refused(redefine_system_predicate(_)).

@@ -59,6 +59,22 @@ test(hop_that_came_before_is_recognised, true(Loads == [1,1,0])) :-
                            handed(Image),
                            host_property(alpha, load(Load)) ),
                          Loads) )).
+test(hop_before_the_last_known_one_is_recognised_at_home, Load == 0) :-
+    with_hosts([alpha],
+               ( image([], First),
+                 sent(First, accepted),
+                 arrived(First),
+                 arg(1, First, A),
+                 agent_dispose(A),
+                 address(alpha, Home),
+                 atom_concat('x.1.home@', Home, Id),
+                 typhon_home:agent_born(Id, Home),
+                 typhon_home:home_moved(Id, 'far@127.0.0.1:1', 3, unknown),
+                 image([], Image0),
+                 bad_image(id(Id), Image0, Image),
+                 handed(Image),
+                 host_property(alpha, load(Load)),
+                 typhon_home:home_ended(Id, disposed, 3, []) )).
 test(invalid_image_leaves_nothing) :-
     with_hosts([alpha],
                ( image([], Good),
