@@ -404,7 +404,8 @@ test(clone_to_a_missing_host, true(F = [s(host_unreachable(_))])) :-
     lives([(main :- catch(clone('gamma@127.0.0.1:1', _), error(E, _),
                           assertz(s(E))))], F).
 test(clone_has_the_tokens_of_its_parent,
-     [ forall(member(Clone, [clone(_), clone(beta, _)])), true(Hs == [B,B]) ]) :-
+     [ forall(member(Clone, [clone(_), clone(beta, _)])),
+       true(Hs == [B,B]) ]) :-
     with_hosts([alpha,beta-[tokens([red])]],
                ( address(beta, B),
                  create([on_message(_, _), (main :- Clone, move(beta))], P,
@@ -1143,8 +1144,9 @@ test(goal_in_a_place_cannot_move_agents,
 test(no_agent_stops_inside_a_native_goal,
      [ forall(member(Goal, [ move(beta), clone(_), clone(beta, _), sleep(0.1),
                              receive(_), receive(_, 0), dispose ])),
-       true(F == [s(permission_error(call, control_predicate, Name/Arity))]) ]) :-
+       true(F == [s(permission_error(call, control_predicate, PI))]) ]) :-
     functor(Goal, Name, Arity),
+    PI = Name/Arity,
     lives([(main :- G = Goal, catch(findall(x, G, _), error(E, _), true),
                     assertz(s(E)))], F).
 test(missing_file, error(existence_error(source_sink, nothing))) :-

@@ -42,6 +42,10 @@ sleeper(Network, Main, Agent) :-
                            (days(K) :- K > 0, sleep(86400), K1 is K-1,
                                        days(K1)) ]), Agent, [host(Host)]).
 
+saved(Network, Dir) :-
+    atom_concat(Dir, '/saved', File),
+    network_save(Network, File).
+
 :- begin_tests(virtual_time).
 
 test(virtual_time_begins_at_zero, true(Time =:= 0)) :-
@@ -71,6 +75,14 @@ test(agents_run_only_while_a_caller_waits, true(Seen == [no,yes])) :-
                    agent_join(A, done, 60),
                    marked(Host, After) )),
     Seen = [Before,After].
+test(agents_stop_when_the_wait_is_over, true(Marks == [])) :-
+    with_virtual([], N,
+                 ( first_host(N, Host),
+                   sleeper(N, true, A),
+                   forall(between(1, 20, _), sleeper(N, leave(mark), _)),
+                   agent_join(A, done, 60),
+                   with_tmp_dir(test_virtual:saved(N)), % a request to the loop
+                   remote(Host, findall(x, sense(mark), Marks)) )).
 test(join_times_out_in_virtual_time, true(Outcome-Time == timeout-30.0)) :-
     with_virtual([], N,
                  ( sleeper(N, sleep(100), A),
@@ -361,7 +373,8 @@ test(other_processes_are_unreachable, true(Outcome == done)) :-
                  with_hosts([one-[clock(virtual)]],
                             ( agent_create(clauses(
                                   [ (:- agent(a)),
-                                    (main :- catch(move(Far), error(E, _), true),
+                                    (main :- catch(move(Far), error(E, _),
+                                                   true),
                                              E == host_unreachable(Far)) ]),
                                            A),
                               agent_join(A, Outcome, 20) )) )).
