@@ -883,11 +883,12 @@ test(order_is_taken_before_a_message, true(H == B)) :-
         with_hosts([alpha,beta],
                    ( address(beta, B),
                      create([ (on_message(_, wait) :-
+                                   thread_send_message(test_agent, begun),
                                    thread_get_message(test_agent, go)),
                               (on_message(_, ask) :- here(X), assertz(s(X))) ],
                             A, [host(alpha)]),
                      maplist(agent_send(A), [wait,ask]),
-                     wait_state(A, running),
+                     thread_get_message(Queue, begun),
                      agent_move(A, beta),
                      thread_send_message(Queue, go),
                      wait_until(fact_of(A, s(H)), 10) )),
