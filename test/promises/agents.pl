@@ -366,11 +366,6 @@ promise(ended_agent_takes_no_orders, named,
          \s   ->  has_ended(Id)"-
         "    (   Ended == ended\n\c
          \s   ->  has_ended(Id)").
-promise(mail_under_way_follows, hand_over,
-        'prolog/typhon/kernel/travel/hand_over.pl',
-        "    agent_gone(Id, Hops, Mail),\n\c
-         \s   post_on(Id, Mail)."-
-        "    agent_gone(Id, Hops, _).").
 promise(refused_agent_keeps_its_mail, hand_over,
         'prolog/typhon/kernel/travel/transfer.pl',
         "    mail_back(Id, Mail),\n\c
@@ -382,13 +377,6 @@ promise(agent_sent_by_request_keeps_its_mail, hand_over,
         "    ;   with_agent(Id, mail_returned(Id, Mail)),\n\c
          \s       fail\n"-
         "    ;   fail\n").
-promise(message_waits_behind_others, letters,
-        'prolog/typhon/kernel/travel/post.pl',
-        "way_on(Id, Letter, done) :-\n\c
-         \s   backlog(Id),\n"-
-        "way_on(Id, Letter, done) :-\n\c
-         \s   Id == none,\n\c
-         \s   backlog(Id),\n").
 promise(older_messages_come_first, mailbox,
         'prolog/typhon/kernel/agent/mailbox.pl',
         "    append(Older, Newer, Messages),\n"-

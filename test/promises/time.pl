@@ -18,10 +18,6 @@ promise(set_clock_changes_no_wait, set_clock,
         'prolog/typhon/kernel/base/monotonic.pl',
         "    (   abs(Error) =< 0.03 "-
         "    (   abs(Error) =< 3.0e9 ").
-promise(wait_ends_when_the_clock_is_set, set_clock,
-        'prolog/typhon/kernel/base/monotonic.pl',
-        "    (   Times =:= Before\n"-
-        "    (   Times >= Before\n").
 promise(now_does_not_go_back, set_clock,
         'prolog/typhon/kernel/base/monotonic.pl',
         "    abs(Wall-Middle) =< 0.05,\n"-
@@ -59,8 +55,9 @@ promise(appointment_is_in_host_seconds, virtual,
          \s   alarm_set(Stamp, Network, at(N)).").
 promise(saved_network_is_whole, saving,
         'prolog/typhon/options/virtual/virtual_loop.pl',
-        "    exclude(is_request, All, Messages)."-
-        "    exclude(is_request, [], Messages).").
+        "    exclude(is_over, All0, Alarms),\n"-
+        "    All0 = _,\n\c
+         \s   Alarms = [],\n").
 promise(loaded_network_draws_alike, saving,
         'prolog/typhon/options/virtual/virtual_loop.pl',
         "    set_random(state(Random)),\n"-
