@@ -118,6 +118,25 @@ test(server_without_the_cookie_is_refused, Why == cookie) :-
     hello(x, 1, 'c:1', Hello),
     meeting(false_server(guessed), authenticate_as(client, Hello, "cookie"),
             _, error(permission_error(authenticate, peer, Why), _)).
+test(replayed_handshake_is_refused_by_either_side,
+     Whys == [cookie, cookie]) :-
+    relayed(=, Lines, true(_), true(_)),
+    hello(server, 7, 's:2', ServerHello),
+    meeting(authenticate_as(server, ServerHello, "same"),
+            replays(client, Lines),
+            error(permission_error(authenticate, peer, Why1), _), _),
+    hello(client, 1, 'c:1', ClientHello),
+    meeting(replays(server, Lines),
+            authenticate_as(client, ClientHello, "same"),
+            _, error(permission_error(authenticate, peer, Why2), _)),
+    Whys = [Why1, Why2].
+test(changed_hello_is_refused,
+     [ forall(member(From-To, [ "c:1"-"c:2", "s:2"-"s:3",
+                                " client 1 "-" client 2 ",
+                                " little."-" none." ])),
+       Why == cookie ]) :-
+    relayed(with_text(From, To), _,
+            error(permission_error(authenticate, peer, Why), _), _).
 test(unexpected_term) :-
     refusal(say("GET / HTTP/1.1\r\n\r\n"),
             permission_error(authenticate, peer, protocol)).
@@ -199,6 +218,64 @@ reflect(In, Out) :-
     line_write(Out, Greeting),
     next_line(In, Proof),
     line_write(Out, Proof).
+
+%   relayed(:Change, -Lines, -ServerResult, -ClientResult): client and server meet
+%   over a process in between, which passes on each line as call(Change, Line0,
+%   Line) makes it.  Lines are those that were passed on.
+
+:- meta_predicate relayed(2, -, -, -).
+
+relayed(Change, Lines, ServerResult, ClientResult) :-
+    hello(client, 1, 'c:1', ClientHello),
+    hello(server, 7, 's:2', ServerHello),
+    setup_call_cleanup(
+        message_queue_create(Queue),
+        ( meeting(passes_on(Change, ServerHello, Queue, ServerResult),
+                  authenticate_as(client, ClientHello, "same"),
+                  _, ClientResult),
+          thread_get_message(Queue, passed(Lines, ServerResult)) ),
+        message_queue_destroy(Queue)).
+
+passes_on(Change, Hello, Queue, _, In, Out) :-
+    meeting(authenticate_as(server, Hello, "same"),
+            relays(Change, In-Out, Queue), Result, _),
+    thread_get_message(Queue, lines(Lines)),
+    thread_send_message(Queue, passed(Lines, Result)).
+
+relays(Change, ClientIn-ClientOut, Queue, ServerIn, ServerOut) :-
+    catch(( pass(Change, ClientIn, ServerOut, L1),
+            pass(Change, ServerIn, ClientOut, L2),
+            pass(Change, ClientIn, ServerOut, L3),
+            pass(Change, ServerIn, ClientOut, L4),
+            Lines = [L1, L2, L3, L4] ),
+          error(_, _),
+          Lines = []),
+    thread_send_message(Queue, lines(Lines)).
+
+pass(Change, In, Out, Line) :-
+    next_line(In, Line0),
+    call(Change, Line0, Line),
+    line_write(Out, Line).
+
+with_text(From, To, Line0, Line) :-
+    (   sub_string(Line0, Before, _, After, From)
+    ->  sub_string(Line0, 0, Before, _, Begin),
+        sub_string(Line0, _, After, 0, End),
+        string_concat(Begin, To, Line1),
+        string_concat(Line1, End, Line)
+    ;   Line = Line0
+    ).
+
+replays(client, [L1, _, L3, _], In, Out) :-
+    line_write(Out, L1),
+    next_line(In, _),
+    line_write(Out, L3),
+    ignore(catch(next_line(In, _), error(_, _), true)).
+replays(server, [_, L2, _, L4], In, Out) :-
+    next_line(In, _),
+    line_write(Out, L2),
+    next_line(In, _),
+    line_write(Out, L4).
 
 %   A server that does not know the cookie answers with the proof of the client,
 %   or with one made with another cookie.
