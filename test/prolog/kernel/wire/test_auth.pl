@@ -29,6 +29,7 @@ test(empty, error(permission_error(use, cookie_file, _))) :-
 test(error_says_why_the_file_is_not_used,
      [ forall(member(Why-Text,
                      [ others_may_read(0o644)-'chmod 600',
+                       file_with("\u00e9234567890123456")-'ASCII',
                        empty_file-'16 characters' ])) ]) :-
     catch(( with_tmp_dir(Why), Said = none ),
           error(permission_error(use, cookie_file, _), context(_, Said)),
@@ -65,9 +66,13 @@ sleep_past(File) :-
     set_time_file(File, [], [modified(Later)]).
 
 empty_file(Dir) :-
+    file_with("", Dir).
+
+file_with(Text, Dir) :-
     directory_file_path(Dir, cookie, File),
-    open(File, write, Out),
-    close(Out),
+    setup_call_cleanup(open(File, write, Out, [encoding(utf8)]),
+                       format(Out, "~s\n", [Text]),
+                       close(Out)),
     chmod(File, 0o600),
     with_env('TYPHON_COOKIE_FILE', File, cookie(_)).
 

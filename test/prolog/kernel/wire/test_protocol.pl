@@ -166,7 +166,8 @@ heard_term(Streams, Term) :-
 %   The connection is closed; the endpoint may still send before.
 
 heard_end(Streams) :-
-    catch(heard_term(Streams, Term), error(_, _), Term = end_of_file),
+    catch(heard_term(Streams, Term), error(io_error(_, _), _),
+          Term = end_of_file),
     (   Term == end_of_file
     ->  true
     ;   heard_end(Streams)

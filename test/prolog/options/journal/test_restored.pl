@@ -1,0 +1,292 @@
+:- module(test_restored, []).
+
+/** <module> The journal is a snapshot of the process, and output follows it
+
+*Threading*: one test at a time; agents run in workers.
+*/
+
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/fixtures', [capturing/2]).
+:- use_module(library(apply), [foldl/4]).
+:- use_module(library(lists),
+              [append/2, append/3, delete/3, member/2, numlist/3]).
+:- use_module(library(plunit)).
+:- use_module(library(process), [process_create/3, process_wait/2]).
+:- use_module(library(prolog_wrap), [unwrap_predicate/2, wrap_predicate/4]).
+:- use_module(library(random), [random_between/3, random_member/2]).
+:- use_module(library(typhon)).
+:- use_module(library(typhon/kernel/base/durable), [durable/5, durable_dump/4]).
+:- use_module(library(typhon/kernel/base/durable_changes)).
+
+:- needs([journal]).
+
+:- meta_predicate running(+, +, 0).
+
+running(Dir, Sync, Goal) :-
+    setup_call_cleanup(host_start(alpha, [journal(Dir), sync(Sync)]),
+                       once(Goal),
+                       host_stop(alpha)).
+
+                /*******************************
+                *         THE SNAPSHOT         *
+                *******************************/
+
+%   Tables of which the journal has the same items as a saved network.
+
+kinds([ backlog, born, clone, done, faulty, left, link, mail, monitor, offer,
+        out, outcome, payload, tuple, wait ]).
+
+filled([ born, clone, faulty, left, link, mail, monitor, offer, out, outcome,
+         payload, tuple ]).
+
+:- meta_predicate items(3, -).
+
+items(Source, Items) :-
+    kinds(Kinds),
+    findall(Kind-Key-Term,
+            ( member(Kind, Kinds), call(Source, Kind, Key, Term) ), Items0),
+    sort(Items0, Items).
+
+dumped(Kind, Key, Term) :-
+    durable_dump(Kind, Key, _, Term).
+
+stored(Kind, Key, Term) :-
+    durable_item(Kind, any, Key, _, Term).
+
+%   A life that leaves something in each of these tables.
+
+life(Dir) :-
+    atom_concat(Dir, '/greeting.pl', File),
+    setup_call_cleanup(open(File, write, Out),
+                       format(Out, ':- payload(greeting, [provides([hi/1])]).~n\c
+                                    hi(there).~n', []),
+                       close(Out)),
+    host_start(beta),
+    link(alpha, beta),
+    remote(alpha, ( leave(a(1)), leave(a(2)), leave(f(X, X)), take(a(1)) )),
+    agent_create(clauses([ (:- agent(brings, [])), (main :- deliver(greeting)) ]),
+                 Brings, [payloads([File])]),
+    agent_join(Brings, done, 20),
+    agent_create(clauses([ (:- agent(clones, [])),
+                           (main :- clone(W), result(W)) ]), Clones, []),
+    agent_join(family(Clones), [_, _], 20),
+    agent_create(clauses([ (:- agent(fails, [])), (main :- fail) ]), Fails, []),
+    agent_join(Fails, failed, 20),
+    resting(rests, [(main :- receive(_-never))], [], Rests),
+    resting(waits, [ to(Rests),
+                     (main :- offer(shop(tea), [price(1)]), to(To), monitor(To),
+                              send('a.b.0@far@127.0.0.1:1', hello),
+                              receive(_-never)) ], [state([to/1])], _),
+    agent_send(Rests, one),
+    agent_send(Rests, two),
+    wait_until(agent_property(Rests, mailbox([_, _])), 20).
+
+resting(Name, Clauses, Options, Id) :-
+    agent_create(clauses([(:- agent(Name, Options))|Clauses]), Id),
+    wait_until(agent_property(Id, state(waiting)), 20).
+
+%   As if the process had been killed: what it has written is what another finds.
+
+copied(Dir, Copy) :-
+    process_create(path(cp), ['-a', file(Dir), file(Copy)], [process(Pid)]),
+    process_wait(Pid, exit(0)).
+
+:- begin_tests(restored).
+
+test(journal_holds_what_the_process_has_and_restores_it) :-
+    no_leaks(with_tmp_dir(snapshot)).
+
+snapshot(Dir) :-
+    atom_concat(Dir, '/journal', Journal),
+    atom_concat(Dir, '/copy', Copy),
+    running(Journal, normal,
+        ( capturing(life(Dir), _),
+          sync_changes,
+          items(dumped, Before),
+          items(stored, Stored),
+          copied(Journal, Copy),
+          host_stop(beta) )),
+    forall(( filled(Kinds), member(Kind, Kinds) ),
+           assertion(memberchk(Kind-_-_, Before))),
+    assertion(Stored =@= Before),
+    running(Copy, normal,
+        ( items(dumped, After), host_stop(beta) )),
+    assertion(After =@= Before).
+
+:- end_tests(restored).
+
+                /*******************************
+                *        UNITS OF WORK         *
+                *******************************/
+
+%   unit(How, Changes): a unit of work that makes Changes, and then succeeds,
+%   fails or raises an error.  Changes are put(Key, Value), drop(Key), or
+%   `enqueue`, which keeps those before.
+
+random_units(Units) :-
+    random_between(1, 12, Count),
+    findall(unit(How, Changes),
+            ( between(1, Count, _),
+              random_member(How, [succeeds, succeeds, fails, raises]),
+              random_between(0, 5, Length),
+              findall(Change, ( between(1, Length, _), random_change(Change) ),
+                      Changes) ),
+            Units).
+
+random_change(Change) :-
+    random_between(1, 4, Key),
+    random_between(1, 1000, Value),
+    random_member(Change, [put(Key, Value), put(Key, Value), drop(Key),
+                           enqueue]).
+
+:- dynamic value/2.                     % Key, Value
+
+:- durable(restored_value, Key, 0, Value, value(Key, Value)).
+
+make(unit(How, Changes)) :-
+    catch(ignore(unit_of_work(( forall(member(Change, Changes), change(Change)),
+                                ends(How) ))),
+          error(stop, _), true).
+
+change(put(Key, Value)) :-
+    name_of(Key, Name),
+    durable_put(restored_value, Name, 0, Value).
+change(drop(Key)) :-
+    name_of(Key, Name),
+    durable_drop(restored_value, Name, 0).
+change(enqueue) :-
+    enqueue_changes.
+
+name_of(Key, Name) :-
+    atom_concat(key, Key, Name).
+
+ends(succeeds).
+ends(fails) :-
+    fail.
+ends(raises) :-
+    throw(error(stop, _)).
+
+%   model(+Units, +Values0, -Values): what a restart finds.
+
+model([], Values, Values).
+model([unit(How, Changes)|Units], Values0, Values) :-
+    kept(How, Changes, Kept),
+    foldl(changed, Kept, Values0, Values1),
+    model(Units, Values1, Values).
+
+kept(succeeds, Changes, Changes) :-
+    !.
+kept(_, Changes, Kept) :-
+    (   append(Kept0, [enqueue|Rest], Changes),
+        \+ memberchk(enqueue, Rest)
+    ->  Kept = Kept0
+    ;   Kept = []
+    ).
+
+changed(enqueue, Values, Values).
+changed(drop(Key), Values0, Values) :-
+    name_of(Key, Name),
+    delete(Values0, Name-_, Values).
+changed(put(Key, Value), Values0, Values) :-
+    changed(drop(Key), Values0, Values1),
+    name_of(Key, Name),
+    sort([Name-Value|Values1], Values).
+
+%   sent(Item, Items): when Item was sent, the journal had Items.
+
+:- dynamic sent/2.
+
+:- multifile typhon_durable_changes:committed/1.
+
+typhon_durable_changes:committed(Items) :-
+    Items = [restored(_)|_],
+    forall(member(Item, Items),
+           ( values(Values), assertz(test_restored:sent(Item, Values)) )).
+
+values(Values) :-
+    findall(Key-Value, durable_item(restored_value, any, Key, _, Value),
+            Values0),
+    sort(Values0, Values).
+
+units(Sync, Dir) :-
+    findall(Units, ( between(1, 20, _), random_units(Units) ), All0),
+    append(All0, All),
+    running(Dir, Sync, forall(member(Unit, All), make(Unit))),
+    retractall(value(_, _)),
+    running(Dir, Sync,
+        ( findall(Key-Value, value(Key, Value), Found0),
+          sort(Found0, Found) )),
+    retractall(value(_, _)),
+    model(All, [], Expected),
+    assertion(Found == Expected).
+
+output(Sync, Dir) :-
+    retractall(sent(_, _)),
+    running(Dir, Sync,
+        ( forall(between(1, 100, N),
+                 ( change(put(1, N)),
+                   send_after_commit(restored(N), now) )),
+          wait_until(sent(restored(100), _), 20) )),
+    findall(N, sent(restored(N), _), Ns),
+    numlist(1, 100, Expected),
+    assertion(Ns == Expected),
+    forall(sent(restored(N), Values),
+           ( memberchk(key1-Value, Values), assertion(Value >= N) )).
+
+failing(Sync, Before, After, Dir) :-
+    retractall(sent(_, _)),
+    running(Dir, Sync,
+        ( setup_call_cleanup(
+              wrap_predicate(typhon_store:store_commit(_), restored, _,
+                             throw(error(resource_error(journal_space), _))),
+              capturing(( change(put(1, 1)),
+                          send_after_commit(restored(1), now),
+                          wait_until(typhon_committing:reported(_), 20),
+                          catch(sync_changes, error(Formal, _), true) ), _),
+              unwrap_predicate(typhon_store:store_commit/1, restored)),
+          findall(N, sent(restored(N), _), Before),
+          change(put(1, 2)),
+          send_after_commit(restored(2), now),
+          wait_until(sent(restored(2), [key1-2]), 20),
+          sync_changes )),
+    assertion(Formal == resource_error(journal_space)),
+    findall(N, sent(restored(N), _), After).
+
+synced(Sync, Dir) :-
+    running(Dir, Sync,
+        forall(between(1, 20, N),
+               ( change(put(1, N)),
+                 sync_changes,
+                 with_mutex(typhon_commit, values(Values)),
+                 assertion(Values == [key1-N]) ))).
+
+numbered(First, Second, Dir) :-
+    running(Dir, normal,
+        ( forall(between(1, 30000, _), durable_number(_)),
+          durable_number(First) )),
+    flag(typhon_durable_number, _, 0),
+    running(Dir, normal, durable_number(Second)).
+
+:- begin_tests(units_of_work, [setup(set_random(seed(3)))]).
+
+test(restart_finds_what_succeeded_and_nothing_else,
+     [ forall(member(Sync, [normal, full, normal, normal, full])) ]) :-
+    no_leaks(with_tmp_dir(units(Sync))).
+
+test(output_follows_the_commit_of_all_changes_before_it,
+     [ forall(member(Sync, [normal, full])) ]) :-
+    no_leaks(with_tmp_dir(output(Sync))).
+
+%   While commits fail nothing is sent; it is when they succeed again.
+
+test(output_waits_while_commits_fail,
+     [ forall(member(Sync, [normal, full])), Before-After == []-[1, 2] ]) :-
+    no_leaks(with_tmp_dir(failing(Sync, Before, After))).
+
+test(sync_returns_after_the_commit, [ forall(member(Sync, [normal, full])) ]) :-
+    no_leaks(with_tmp_dir(synced(Sync))).
+
+test(numbers_grow_over_a_restart, true(Second > First)) :-
+    no_leaks(with_tmp_dir(numbered(First, Second))).
+
+:- end_tests(units_of_work).
