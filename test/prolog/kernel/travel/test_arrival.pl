@@ -75,6 +75,32 @@ test(hop_before_the_last_known_one_is_recognised_at_home, Load == 0) :-
                  handed(Image),
                  host_property(alpha, load(Load)),
                  typhon_home:home_ended(Id, disposed, 3, []) )).
+test(hop_of_a_number_that_came_before_has_no_effect,
+     [First, Second] == [accepted, accepted]) :-
+    with_hosts([alpha],
+               ( image([], Image),
+                 image([], Other),
+                 sent_as(Image, hop_id(p, 7, 7), First),
+                 arrived(Image),
+                 sent_as(Other, hop_id(p, 7, 7), Second),
+                 host_property(alpha, load(1)),
+                 sent_as(Other, hop_id(p, 8, 7), accepted),
+                 wait_until(host_property(alpha, load(2)), 5) )).
+test(earlier_hop_of_an_agent_that_has_ended_has_no_effect,
+     Answer == accepted) :-
+    with_hosts([alpha],
+               ( agent_create(clauses([(:- agent(x, [])), main]), Id),
+                 joined(Id, done),
+                 image([], Image0),
+                 bad_image(id(Id), Image0, Image),
+                 sent(Image, Answer),
+                 alone )).
+test(image_arrives_twice_at_a_full_host, Answer == accepted) :-
+    with_hosts([alpha-[capacity(1)]],
+               ( image([], Image),
+                 sent(Image, accepted),
+                 arrived(Image),
+                 sent(Image, Answer) )).
 test(invalid_image_leaves_nothing) :-
     with_hosts([alpha],
                ( image([], Good),
@@ -145,6 +171,11 @@ handed(image(Id, Hash, Life, State, Goals, Mail, Since)) :-
                                           Since),
                                     known),
                                 '127.0.0.1:1', accepted)).
+sent_as(Image, HopId, Answer) :-
+    program(_, Program),
+    endpoint_address(Endpoint),
+    endpoint_call(Endpoint, hop, hop(alpha, Image, Program, HopId),
+                  answer(Answer), 10).
 
 arrived(Image) :-
     arg(1, Image, Id),

@@ -235,13 +235,14 @@ relayed(Change, Lines, ServerResult, ClientResult) :-
     hello(server, 7, 's:2', ServerHello),
     setup_call_cleanup(
         message_queue_create(Queue),
-        ( meeting(passes_on(Change, ServerHello, Queue, ServerResult),
+        ( meeting(passes_on(Change, ServerHello, Queue),
                   authenticate_as(client, ClientHello, "same"),
                   _, ClientResult),
-          thread_get_message(Queue, passed(Lines, ServerResult)) ),
-        message_queue_destroy(Queue)).
+          thread_get_message(Queue, passed(Lines, Result)) ),
+        message_queue_destroy(Queue)),
+    ServerResult = Result.
 
-passes_on(Change, Hello, Queue, _, In, Out) :-
+passes_on(Change, Hello, Queue, In, Out) :-
     meeting(authenticate_as(server, Hello, "same"),
             relays(Change, In-Out, Queue), Result, _),
     thread_get_message(Queue, lines(Lines)),

@@ -16,7 +16,8 @@ The client here shares no code with the product.
 :- use_module(library(socket)).
 :- use_module(library(typhon/kernel/wire)).
 
-%   The messages about the faults of the client are not printed.
+%   The messages about the faults of the client are not printed.  No count is
+%   sent because of silence.
 
 :- multifile user:message_hook/3.
 :- dynamic note/1, user:message_hook/3.
@@ -51,9 +52,11 @@ served(Goal) :-
     retractall(note(_)),
     setup_call_cleanup(
         asserta((user:message_hook(typhon(endpoint, _), _, _) :- true), Hook),
-        no_leaks(setup_call_cleanup(endpoint_start(localhost, 0, [], _),
-                                    once(Goal),
-                                    endpoint_stop)),
+        with_settings([typhon_reader:silence=100],
+                      no_leaks(setup_call_cleanup(
+                                   endpoint_start(localhost, 0, [], _),
+                                   once(Goal),
+                                   endpoint_stop))),
         erase(Hook)).
 
 connected(In, Out) :-

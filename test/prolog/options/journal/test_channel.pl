@@ -1,9 +1,10 @@
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/peers').
 :- use_module(library(plunit)).
-:- use_module(library(lists), [member/2, numlist/3]).
+:- use_module(library(lists), [last/2, member/2, numlist/3]).
 :- use_module(library(process), [process_kill/2, process_wait/2]).
 :- use_module(library(prolog_wrap), [wrap_predicate/4]).
+:- use_module(library(random), [random_member/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(typhon)).
 
@@ -427,3 +428,58 @@ posted_all :-
     nb_setval(channel_after, After).
 
 :- end_tests(channel_plain).
+
+%   Posts 1, 2 and so on, of which some are lost, repeated, or sent again from an
+%   earlier one on: each is taken once, in order.
+
+:- begin_tests(channel_receiver).
+
+:- dynamic taken/1.
+
+:- multifile
+    typhon_endpoint:received/3,
+    typhon_kinds:accepts/5.
+
+typhon_kinds:accepts(post, channel_note, _, none, none).
+
+typhon_endpoint:received(channel_note, N, _) :-
+    assertz(plunit_channel_receiver:taken(N)).
+
+test(each_post_is_taken_once_in_order,
+     [ forall(between(1, 30, Seed)),
+       cleanup(retractall(typhon_channel:seen(_, _))) ]) :-
+    set_random(seed(Seed)),
+    retractall(taken(_)),
+    arrives(40, 0),
+    findall(N, taken(N), Taken),
+    last([0|Taken], Last),
+    findall(N, between(1, Last, N), Expected),
+    assertion(Taken == Expected),
+    numlist(1, 20, All),
+    forall(member(N, All), arrived(N, _)),
+    findall(N, taken(N), Finally),
+    assertion(Finally == All).
+
+%   arrives(+Count, +Last): Count posts, after that of number Last.
+
+arrives(0, _) :-
+    !.
+arrives(Count, Last) :-
+    random_member(Next, [1, 1, 1, 2, 0, -2]),
+    N is min(20, max(1, Last+Next)),
+    arrived(N, How),
+    (   N =:= 1
+    ->  assertion(How \== gap)
+    ;   true
+    ),
+    Count1 is Count-1,
+    arrives(Count1, N).
+
+arrived(N, How) :-
+    (   N =:= 1
+    ->  Before = first(-1)
+    ;   Before is N-1
+    ),
+    typhon_channel:take_once(key, Before, N, channel_note, N, peer, How).
+
+:- end_tests(channel_receiver).

@@ -17,6 +17,8 @@
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/base/durable), [durable/5, durable_dump/4]).
 :- use_module(library(typhon/kernel/base/durable_changes)).
+:- use_module(library(typhon/kernel/wire),
+              [endpoint_address/1, endpoint_process/1]).
 
 :- needs([journal]).
 
@@ -112,6 +114,71 @@ snapshot(Dir) :-
     running(Copy, normal,
         ( items(dumped, After), host_stop(beta) )),
     assertion(After =@= Before).
+
+%   The process has its id and its port again, not its number.
+
+test(process_keeps_its_id_and_its_port,
+     [First, j] == [Second, Letter]) :-
+    no_leaks(with_tmp_dir(itself(First, Second, Letter))).
+
+itself(P1-A1, P2-A2, Letter, Dir) :-
+    running(Dir, normal, is_process(P1, A1, S1)),
+    running(Dir, normal, is_process(P2, A2, S2)),
+    assertion(S2 > S1),
+    sub_atom(P1, 0, 1, _, Letter).
+
+is_process(Process, Address, Start) :-
+    endpoint_process(Process),
+    endpoint_address(Address),
+    typhon_endpoint:starts(Start).
+
+test(host_that_stops_beside_others_is_not_restored,
+     [Hosts, Agents] == [[alpha], [stays]]) :-
+    no_leaks(with_tmp_dir(beside(Hosts, Agents))).
+
+beside(Hosts, Agents, Dir) :-
+    running(Dir, normal,
+        ( host_start(beta),
+          resting(stays, [(main :- receive(_-never))], [], _),
+          agent_create(clauses([ (:- agent(goes, [])),
+                                 (main :- receive(_-never)) ]), Goes,
+                       [host(beta)]),
+          wait_until(agent_property(Goes, state(waiting)), 20),
+          host_stop(beta) )),
+    running(Dir, normal,
+        ( findall(Host, host_property(Host, load(_)), Hosts),
+          findall(Name,
+                  ( agent_property(Id, state(_)),
+                    atomic_list_concat([Name|_], '.', Id) ), Agents) )).
+
+%   An agent sees at once what it leaves, others when it stops; what it takes is
+%   gone at once.
+
+test(facts_of_a_step_are_visible_to_others_at_its_end,
+     Seen == [own([left]), others([]), after([left])]) :-
+    no_leaks(with_tmp_dir(in_step(Seen))).
+
+in_step([own(Own), others(Others), after(After)], Dir) :-
+    running(Dir, normal,
+        ( remote(alpha, leave(taken)),
+          setup_call_cleanup(
+              message_queue_create(_, [alias(restored_gate)]),
+              ( agent_create(clauses([ (:- agent(acts, [])),
+                                       (main :- leave(left), take(taken),
+                                                findall(F, sense(F), Fs),
+                                                thread_send_message(restored_gate,
+                                                                    own(Fs)),
+                                                thread_get_message(restored_gate, on),
+                                                sleep(0)) ]), A),
+                thread_get_message(restored_gate, own(Own)),
+                facts(Others),
+                thread_send_message(restored_gate, on),
+                agent_join(A, done, 20),
+                facts(After) ),
+              message_queue_destroy(restored_gate)) )).
+
+facts(Facts) :-
+    remote(alpha, findall(F, sense(F), Facts)).
 
 :- end_tests(restored).
 
@@ -285,6 +352,14 @@ test(output_waits_while_commits_fail,
 
 test(sync_returns_after_the_commit, [ forall(member(Sync, [normal, full])) ]) :-
     no_leaks(with_tmp_dir(synced(Sync))).
+
+test(change_that_no_caller_waits_for_is_committed_soon) :-
+    no_leaks(with_tmp_dir(soon)).
+
+soon(Dir) :-
+    running(Dir, normal,
+        ( change(put(1, 1)),
+          wait_until(with_mutex(typhon_commit, values([key1-1])), 20) )).
 
 test(numbers_grow_over_a_restart, true(Second > First)) :-
     no_leaks(with_tmp_dir(numbered(First, Second))).

@@ -63,6 +63,8 @@ test(invalid_keys,
 no_key(Key, N) :-
     member(Key-N, [ _-0, f(x)-0, "text"-0, key-_, key-1.5,
                     key-9223372036854775808, 'a\000\b'-0 ]).
+no_key(Key, 0) :-
+    format(atom(Key), '~`xt~501|', []).
 no_key(Half, 0) :-
     catch(atom_codes(Half, [0xdc00]), error(_, _), fail).   % fails in 10.1
 
@@ -102,6 +104,19 @@ locked(Dir) :-
     with_swipl(['-g', Goal, '-t', halt, Store], _, _, Out,
                ( read_line_to_string(Out, "open"),
                  with_store(Dir, true) )).
+
+%   1 survives the end of the process, 2 a power failure as well.
+
+test(commits_are_synced_on_demand,
+     [ forall(member(Sync-Expected, [normal-1, full-2])),
+       true(Synchronous == Expected) ]) :-
+    with_tmp_dir(synced(Sync, Synchronous)).
+
+synced(Sync, Synchronous, Dir) :-
+    with_store(Dir, Sync,
+               ( typhon_store:connection(_, Connection),
+                 odbc:odbc_query(Connection, 'pragma synchronous',
+                                 row(Synchronous), [types([integer])]) )).
 
 test(foreign_file_is_not_touched,
      [error(journal_damaged(_, _))]) :-
