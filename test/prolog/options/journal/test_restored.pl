@@ -22,6 +22,8 @@
 
 :- needs([journal]).
 
+:- dynamic entry/1.                     % Changes, as they were queued
+
 :- meta_predicate running(+, +, 0).
 
 running(Dir, Sync, Goal) :-
@@ -150,6 +152,29 @@ beside(Hosts, Agents, Dir) :-
           findall(Name,
                   ( agent_property(Id, state(_)),
                     atomic_list_concat([Name|_], '.', Id) ), Agents) )).
+
+%   The predicate stays wrapped: threads execute it.
+
+test(effects_of_a_step_and_its_next_goals_are_one_entry,
+     [ setup(retractall(test_restored:entry(_))) ]) :-
+    no_leaks(with_tmp_dir(one_entry)).
+
+one_entry(Dir) :-
+    wrap_predicate(typhon_committing:queue_entry(Changes), noted, Wrapped,
+                   ( assertz(test_restored:entry(Changes)), Wrapped )),
+    running(Dir, normal,
+        ( resting(rests, [(main :- receive(_-never))], [], To),
+          remote(alpha, leave(taken)),
+          agent_create(clauses([ (:- agent(acts, [state([to/1])])),
+                                 (main :- to(To1), leave(left), take(taken),
+                                          send(To1, hello), sleep(0)) ]), A,
+                       [facts([to(To)])]),
+          agent_join(A, done, 20) )),
+    findall(Entry, ( entry(Entry), memberchk(put(letter, _, _, _), Entry) ),
+            [Step]),
+    forall(member(Change, [put(agent, A, 0, _), put(tuple, alpha, _, _),
+                           drop(tuple, alpha, _)]),
+           assertion(memberchk(Change, Step))).
 
 %   An agent sees at once what it leaves, others when it stops; what it takes is
 %   gone at once.

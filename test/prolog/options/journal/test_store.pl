@@ -138,6 +138,27 @@ unchanged(File, Goal) :-
     Before == After,
     throw(error(Formal, Context)).
 
+%   A page in the middle of the file is overwritten.
+
+test(damaged_page_is_detected_when_the_journal_is_opened,
+     [error(journal_damaged(_, _))]) :-
+    with_tmp_dir(damaged_page).
+
+damaged_page(Dir) :-
+    findall(a-k-N-Text,
+            ( between(1, 400, N), format(string(Text), "~`xt~1000|", []) ),
+            Specs),
+    with_store(Dir, commit(Specs)),
+    directory_file_path(Dir, 'journal.db', File),
+    size_file(File, Size),
+    setup_call_cleanup(
+        open(File, update, Out, [type(binary)]),
+        ( Middle is (Size//8192)*4096,
+          seek(Out, Middle, bof, _),
+          forall(between(1, 4096, I), ( Byte is I mod 251, put_byte(Out, Byte) )) ),
+        close(Out)),
+    with_store(Dir, true).
+
 test(damaged_term_is_detected,
      [error(journal_damaged(_, a-k))]) :-
     with_tmp_dir(damaged).
