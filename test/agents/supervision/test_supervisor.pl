@@ -5,6 +5,8 @@
 :- use_module(library(plunit)).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [append/2, member/2]).
+:- use_module(library(pairs), [map_list_to_pairs/3]).
+:- use_module(library(prolog_wrap), [unwrap_predicate/2, wrap_predicate/4]).
 :- use_module(library(typhon)).
 
 /** <module> Supervisors
@@ -140,6 +142,114 @@ test(restart_is_retried_when_capacity_is_free) :-
                   host_start(beta),
                   wait_until(children(S, [a-[]], _), 10),
                   host_stop(beta)) ), _)).
+
+%   Ids are numbered as agents are created.
+
+:- dynamic ended/1.                     % Id, in the order of the ends
+
+test(children_start_in_order_and_end_in_reverse,
+     [ Started-Ended == [a,b,c]-[c,b,a] ]) :-
+    Children = [a-[], b-[], c-[]],
+    with_hosts([alpha],
+        capturing(
+            ( supervised(Children, [], S),
+              children(S, Children, Ids),
+              retractall(test_supervisor:ended(_)),
+              setup_call_cleanup(
+                  wrap_predicate(typhon_home:home_ended(Id, _, _, _), noted, W,
+                                 ( assertz(test_supervisor:ended(Id)), W )),
+                  ( agent_send(S, stop), joined(S, done) ),
+                  unwrap_predicate(typhon_home:home_ended/4, noted)) ), _)),
+    map_list_to_pairs(number_of, Ids, Numbered0),
+    keysort(Numbered0, Numbered),
+    findall(Name, ( member(_-Id1, Numbered), named(Id1, Name) ), Started),
+    findall(Name, ( test_supervisor:ended(Id2), memberchk(Id2, Ids),
+                    named(Id2, Name) ), Ended).
+
+named(Id, Name) :-
+    atomic_list_concat([Name|_], '.', Id).
+
+number_of(Id, Number) :-
+    atomic_list_concat([Local|_], @, Id),
+    atomic_list_concat([_, _, Text], '.', Local),
+    atom_number(Text, Number).
+
+%   In virtual time, which passes while the test waits, each child ends after
+%   some seconds; the 20th stays, and tells the referee.
+
+ends_after(Seconds, More, S) :-
+    Program = clauses([ (:- agent(short, [])),
+                        (main :- leave(started),
+                                 findall(x, sense(started), Started),
+                                 length(Started, Count),
+                                 (   Count < 20
+                                 ->  sleep(Seconds)
+                                 ;   send(referee, reached),
+                                     receive(_-never)
+                                 )) ]),
+    agent_create(agents(supervisor), S,
+                 [facts([child(a, Program, [])|More])]).
+
+started(Count) :-
+    remote(alpha, aggregate_all(count, sense(started), Count)).
+
+test(supervisor_gives_up_after_so_many_restarts,
+     [ forall(member(More-Count,
+                     [ []-3, [intensity(0, 9)]-0, [intensity(2, 9)]-2,
+                       [intensity(5, 9)]-5 ])),
+       Outcome-Restarts == disposed-Count ]) :-
+    with_hosts([alpha-[clock(virtual)]],
+        capturing(
+            ( ends_after(1, More, S),
+              joined(S, Outcome),
+              started(All),
+              Restarts is All-1 ), _)).
+test(restarts_of_long_ago_do_not_count) :-
+    with_hosts([alpha-[clock(virtual)]],
+        capturing(
+            ( agent_create(clauses([ (:- agent(referee, [])),
+                                     (main :- receive(_-reached), result(yes))
+                                   ]), Referee, [name(referee)]),
+              ends_after(2, [], S),
+              agent_result(Referee, yes, 1000),
+              agent_property(S, state(_)) ), _)).
+test(child_starts_again_on_its_host, Host-Again == Beta-Beta) :-
+    Children = [a-[host(beta)]],
+    with_hosts([alpha, beta],
+        capturing(
+            ( supervised(Children, [], S),
+              children(S, Children, [A0]),
+              address(beta, Beta),
+              agent_property(A0, host(Host)),
+              again(S, Children, A0, A),
+              agent_property(A, host(Again)) ), _)).
+test(restart_on_demand) :-
+    Children = [a-[], b-[]],
+    with_hosts([alpha],
+        capturing(
+            ( supervised(Children, [], S),
+              children(S, Children, [A0, B]),
+              agent_send(S, restart(a)),
+              joined(A0, disposed),
+              wait_until(( children(S, Children, [A, B]), A \== A0 ), 10) ),
+            _)).
+test(failed_child_is_kept_and_another_takes_its_name, Got == here) :-
+    Children = [a-[]],
+    with_hosts([alpha],
+        capturing(
+            ( supervised(Children, [], S),
+              children(S, Children, [A0]),
+              agent_send(A0, fail),
+              wait_until(( children(S, Children, [A]), A \== A0 ), 10),
+              agent_property(A0, state(faulty(_))),
+              agent_send(a, leave(here)),
+              wait_until(remote(alpha, sense(Got)), 10) ), _)).
+test(child_may_be_a_supervisor_itself) :-
+    with_hosts([alpha],
+        capturing(
+            ( worker(W),
+              supervised_by(self, [facts([child(leaf, W, [])])], Top),
+              wait_until(tree_of(Top, _, _), 10) ), _)).
 
 %   A tree: the child `sub` of the top is a supervisor of `leaf`.
 

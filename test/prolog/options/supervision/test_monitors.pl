@@ -273,6 +273,18 @@ test(agent_ends_with_the_watcher, O == disposed) :-
                  shares(W, A),
                  agent_dispose(W),
                  joined(A, O) )).
+test(follower_gets_no_message, Ms == [Other]) :-
+    with_hosts([alpha],
+               ( watcher(W, [ (on_message(user, follows(A)) :-
+                                  monitor(A, [shared(self)]),
+                                  assertz(r(A))) ], []),
+                 sleeper(A, []),
+                 agent_send(W, follows(A)),
+                 set(W, A),
+                 ends(A, true),
+                 joined(A, done),
+                 receives_other(W, Other),
+                 received(W, Ms) )).
 test(outcome_done_is_reported) :-
     with_hosts([alpha],
                ( watcher(W, [], []),
