@@ -73,8 +73,12 @@ promise(later_changes_are_dropped, stop,
         "    with_mutex(typhon_entries, retract(queue(Entries, _, _))),"-
         "    queue(Entries, _, _),").
 promise(last_commit_is_made, restored,
-        'prolog/typhon/kernel/base/durable_changes.pl',
-        "    ignore(end_commits)."-"    true.").
+        'prolog/typhon/options/journal/committing.pl',
+        "    catch(commit_all(Entries), error(Formal, Context),\n          \c
+         ( print_message(error, error(Formal, Context)),\n            \c
+         assertz(reported(error(Formal, Context))) )),\n    \c
+         retractall(unsaved"-
+        "    retractall(unsaved").
 promise(stop_goes_on_after_an_error, stop,
         'prolog/typhon/options/journal/committing.pl',
         "    catch(commit_all(Entries), error(Formal, Context),\n          \c
@@ -105,7 +109,7 @@ promise(left_facts_are_visible_to_others_later, restored,
 promise(own_facts_are_visible_at_once, restored,
         'prolog/typhon/kernel/host/tuples.pl',
         "    effects_deferred,\n    due(Place, Fact, mine)."-
-        "    effects_deferred,\n    due(Place, Fact, other).").
+        "    fail,\n    due(Place, Fact, mine).").
 promise(log_events_arrive_once, journal,
         'prolog/typhon/options/journal/units_of_work.pl',
         "    unit_of_work(( durable_drop(Kind, Key, N),\n                   \c

@@ -37,9 +37,9 @@ promise(wrong_proof_is_answered, protocol,
 promise(other_version_is_answered, unauthenticated_clients,
         'prolog/typhon/kernel/wire/handshake.pl',
         "        line_write(Out, Protocol)\n"-"        true\n").
-promise(other_first_byte_ends_the_connection, unauthenticated_clients,
-        'prolog/typhon/kernel/wire/acceptor.pl',
-        "        check_first(Byte, Out)\n"-"        true\n").
+promise(other_first_byte_ends_the_connection, protocol,
+        'prolog/typhon/kernel/wire/transport.pl',
+        "client(_, other)."-"client(_, plain).").
 promise(smaller_key_counts_first, protocol,
         'prolog/typhon/kernel/wire/connection.pl',
         "    MyKey @< Key,\n"-"    MyKey @> Key,\n").
@@ -95,8 +95,9 @@ promise(always_damaged_frame_is_skipped, protocol,
         "    ;   sig_atomic(( true,\n                     session_count").
 promise(text_is_quoted_for_all_versions, frame,
         'prolog/typhon/kernel/base/text.pl',
-        "text_options([ quoted(true), ignore_ops(true), fullstop(true),"-
-        "text_options([ quoted(true), fullstop(true),").
+        "text_options([ quoted(true), ignore_ops(true), fullstop(true),\n               \c
+         module(typhon_text_syntax) ])."-
+        "text_options([ quoted(true), fullstop(true) ]).").
 promise(undecodable_request_is_answered, protocol,
         'prolog/typhon/kernel/wire/reader.pl',
         "    (   bytes_mark(Bytes, Mark0)\n"-"    (   fail\n").
@@ -171,9 +172,7 @@ promise(lower_count_is_ignored, [protocol, frame],
 promise(resume_settles_nothing, settlement,
         'prolog/typhon/kernel/wire/settlement.pl',
         "    forall(member(N-Token, Handed), assertz(unsettled(Key, N, Token)))."-
-        "    forall(member(N-Token, Handed),\n           \c
-         ( assertz(unsettled(Key, N, Token)),\n             \c
-         retractall(objection(Key, N, _)) )).").
+        "    Key-Handed = _.").
 promise(sender_does_not_block, settlement,
         'prolog/typhon/kernel/wire/unacked.pl',
         "65536-(Written-Acked)"-"1000000-(Written-Acked)").
@@ -352,7 +351,9 @@ promise(news_share_a_frame, news,
         "when_due(_, _, now).").
 promise(image_is_checked_before_anything_changes, arrival,
         'prolog/typhon/kernel/agent/image.pl',
-        "    (   is_image(Image),\n        Image"-"    (   Image").
+        "    is_list(Mail),\n    \c
+         forall(member(Message, Mail), subsumes_term(_-_, Message))."-
+        "    is_list(Mail).").
 promise(program_has_its_hash, arrival,
         'prolog/typhon/kernel/program/code.pl',
         "        maplist(is_import, Libraries),\n        \c

@@ -121,6 +121,10 @@ act(tell(Id, News)) :-
     news_send('127.0.0.1:1', Id, News).
 act(hurry) :-
     news_hurry.
+act(waits) :-                           % for more, or is gone already
+    Home = '127.0.0.1:1',
+    wait_until(( typhon_news:pauses(Home) ; \+ typhon_news:news(Home, _, _) ),
+               20).
 
 :- begin_tests(news).
 
@@ -148,6 +152,9 @@ test(later_news_follow_the_end_of_a_discarded_copy, Kept == [News]) :-
 test(news_are_batched_after_a_pause, Posts == [10]) :-
     findall(tell(I, News), ( between(1, 10, I), at(I, News) ), Acts),
     sent_with_pause(0.3, Acts, Posts).
+test(news_of_a_location_waits_for_more, Posts == [2]) :-
+    sent_with_pause(100, [ tell(a, located(a, b, 1)), waits,
+                           tell(c, located(c, d, 1)), hurry ], Posts).
 test(end_is_sent_at_once_with_all_waiting_news, Posts == [2]) :-
     at(1, News), end(1, End),
     sent_with_pause(60, [tell(x, News), tell(y, End)], Posts).

@@ -482,6 +482,12 @@ test(bundle_is_not_longer_than_allowed, true(Size == 1)) :-
                  frame("cccc", loose, 0) ], Queue,
                ( bundle_next(Queue, fast, 30, _, true),
                  message_queue_property(Queue, size(Size)) )).
+test(parts_of_a_bundle_have_512_bytes_at_most, Fit == [1, 512]) :-
+    findall(Length,
+            ( member(Length, [1, 512, 513]),
+              format(string(Bytes), "~`xt~*|", [Length]),
+              bundle_fits(Bytes) ),
+            Fit).
 test(bundle_has_at_most_a_hundred_frames, true(Count == 3)) :-
     findall(frame("a", loose, 0), between(1, 250, _), Frames0),
     with_queue(Frames0, Queue,

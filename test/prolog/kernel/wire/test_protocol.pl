@@ -201,6 +201,14 @@ test(client_with_a_wrong_proof_is_refused, Line == "refused") :-
           read_line_to_string(In, _),
           read_line_to_string(In, Line) ),
         ( close(Out, [force(true)]), close(In, [force(true)]) ))).
+test(first_byte_of_no_greeting_ends_the_connection, Byte == -1) :-
+    with_settings([typhon_handshake:handshake_time=100],
+        served(setup_call_cleanup(
+            connected(In, Out),
+            ( format(Out, "G", []),
+              flush_output(Out),
+              catch(get_code(In, Byte), error(io_error(_, _), _), Byte = -1) ),
+            ( close(Out, [force(true)]), close(In, [force(true)]) )))).
 test(frame_that_the_endpoint_cannot_serve_is_answered,
      [ forall(member(Frame-Answers,
                      [ request(7, no_such_kind, x)-[spoilt(7)],
