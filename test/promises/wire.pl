@@ -184,7 +184,7 @@ promise(received_frame_makes_room, settlement,
 promise(bundle_is_bounded, frame,
         'prolog/typhon/kernel/wire/frame.pl',
         "most_parts(100)."-"most_parts(1000).").
-promise(bundled_posts_are_short, bundle,
+promise(bundled_posts_are_short, frame,
         'prolog/typhon/kernel/wire/frame.pl',
         "longest_part(512)."-"longest_part(51).").
 promise(session_is_resumed_by_the_endpoint, endpoint,

@@ -164,8 +164,9 @@ test(damaged_term_is_detected,
     with_tmp_dir(damaged).
 
 damaged(Dir) :-
-    with_store(Dir, commit([a-k-0-hello(world)])),
-    sql(Dir, 'update item set value=zeroblob(length)'),
+    with_store(Dir, commit([a-k-0-hello(world), b-k-0-hello(wordl)])),
+    sql(Dir, 'update item set value=(select value from item \c
+              where kind=\'b\') where kind=\'a\''),
     with_store(Dir, items(a, _)).
 
 test(journal_of_another_version_is_refused,
