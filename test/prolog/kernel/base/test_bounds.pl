@@ -38,6 +38,17 @@ test(table_has_never_more_facts_than_its_bound,
     with_settings([Setting=Bound],
                   with_hosts([alpha], filled(Setting, Most, Last))).
 
+test(lower_setting_holds_after_a_hundred_additions,
+     [ forall(test_bounds:table(Setting, _, _, _)), true(Count =< 50) ]) :-
+    with_hosts([alpha],
+               ( with_settings([Setting=5000],
+                               forall(member(Part, [0, 1000, 2000]),
+                                      test_bounds:added(Setting, Part))),
+                 with_settings([Setting=50],
+                               forall(between(9001, 9101, I),
+                                      test_bounds:added_one(Setting, I))),
+                 test_bounds:count(Setting, Count) )).
+
 filled(Setting, Most, Last) :-
     findall(T, ( member(Part, [0, 1000, 2000, 3000]),
                  thread_create(test_bounds:added(Setting, Part), T) ), Ts),
@@ -58,9 +69,11 @@ most(Ts, Setting, Most0, Most) :-
 
 added(Setting, Part) :-
     forall(between(1, 500, K),
-           ( I is Part+K,
-             once(table(Setting, _, I, Goal)),
-             call(Goal) )).
+           ( I is Part+K, added_one(Setting, I) )).
+
+added_one(Setting, I) :-
+    once(table(Setting, _, I, Goal)),
+    call(Goal).
 
 count(Setting, Count) :-
     once(table(Setting, Fact, _, _)),
