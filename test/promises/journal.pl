@@ -80,11 +80,10 @@ promise(last_commit_is_made, restored,
          retractall(unsaved"-
         "    retractall(unsaved").
 promise(stop_goes_on_after_an_error, stop,
-        'prolog/typhon/options/journal/committing.pl',
-        "    catch(commit_all(Entries), error(Formal, Context),\n          \c
-         ( print_message(error, error(Formal, Context)),\n            \c
-         assertz(reported(error(Formal, Context))) )),"-
-        "    commit_all(Entries),").
+        'prolog/typhon/kernel/base/own_thread.pl',
+        "    catch(forall(Module:Goal, true), error(Formal, Context),\n          \c
+         print_error(error, error(Formal, Context)))."-
+        "    forall(Module:Goal, true).").
 promise(step_is_committed_as_a_whole, journal,
         'prolog/typhon/options/journal/units_of_work.pl',
         "    (   durable_on\n    \c

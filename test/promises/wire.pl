@@ -192,11 +192,11 @@ promise(session_is_resumed_by_the_endpoint, endpoint,
         "    session_unfinished(Session),\n    !,\n    \c
          session_reconnect(Session)."-
         "    session_unfinished(Session),\n    !.").
-promise(silent_peer_is_given_up, endpoint,
+promise(silent_peer_is_given_up, protocol,
         'prolog/typhon/kernel/wire/reader.pl',
         "        (   Count < 3\n        ->  session_control"-
         "        (   Count < 1000\n        ->  session_control").
-promise(silent_peer_is_pinged, endpoint,
+promise(silent_peer_is_pinged, protocol,
         'prolog/typhon/kernel/wire/reader.pl',
         "        ->  session_control(Session, ping)\n"-"        ->  true\n").
 promise(restarted_peer_is_another, endpoint,
@@ -224,12 +224,6 @@ promise(broken_handshake_is_tried_again, wire,
         'prolog/typhon/kernel/wire/attempts.pl',
         "may_pass(io_error(_, _)).\nmay_pass(syntax_error(end_of_file)).\n"-
         "").
-promise(silence_is_unreachable, endpoint,
-        'prolog/typhon/kernel/wire/attempts.pl',
-        "over(_, _, Deadline) :-\n    monotonic_time(Now),\n    \c
-         Deadline =< Now."-
-        "over(_, _, Deadline) :-\n    monotonic_time(Now),\n    \c
-         Deadline+100 =< Now.").
 promise(attempts_are_few, wire,
         'prolog/typhon/kernel/wire/attempts.pl',
         "    Count >= Many."-"    Count >= 10*Many.").

@@ -278,6 +278,13 @@ test(received_frames_are_counted_after_32, Counts == [32]) :-
                      forall(between(1, 40, N), send(Streams, post(note, N))),
                      send(Streams, request(1, echo, x)),
                      counts(Streams, Counts) ))).
+test(silent_peer_is_pinged_and_then_given_up,
+     Heard == [answer(1, x), ping, ping, end_of_file]) :-
+    served(with_settings([typhon_reader:silence=0.3],
+                         talking(zz, 0, Streams, _,
+                                 ( send(Streams, request(1, echo, x)),
+                                   heard_terms([_, _, _, _], Streams,
+                                               Heard) )))).
 test(count_beyond_what_was_sent_ends_the_connection) :-
     served(talking(zz, 0, Streams, _,
                    ( is_answered(Streams, 1),

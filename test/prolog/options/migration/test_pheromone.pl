@@ -298,6 +298,16 @@ distances([From|Froms], Edges, D, Known, Distances) :-
 
 test(flood_of_an_agent_leaves_space_for_others, Left == [25,10]) :-
     flooded(forall(between(1, 5000, N), emit(flood(N))), Left).
+test(all_neighbours_together_cannot_pass_the_bound, Counts == [25,50,50]) :-
+    with_settings([typhon_pheromone:pheromones=50],
+        with_hosts([b, c, d, e],
+            ( forall(member(H, [b, d, e]), link(c, H)),
+              findall(Count,
+                      ( member(H-Expected, [b-25, d-50, e-50]),
+                        forall(between(1, 30, N),
+                               emit(H, from(H, N), [span(1), period(1000)])),
+                        all_on_c(Expected, Count) ),
+                      Counts) ))).
 test(large_problem_is_refused, Formal == resource_error(pheromone)) :-
     line([b, c],
          ( guest([ (main :- length(L, 3000), maplist(=(x), L),
@@ -314,6 +324,10 @@ test(process_of_another_host_cannot_pass_the_bound, Left-Rest == [25,10]-[]) :-
             line([d, c], ( kept(c), pheromones(10), sent_by_peer(Left, Rest) )))).
 
 :- end_tests(pheromones_are_bounded).
+
+all_on_c(Expected, Count) :-
+    wait_until(( remote(c, aggregate_all(count, pheromone(_, _, _), Count)),
+                 Count >= Expected ), 20).
 
 guest(Clauses, A) :-
     create(Clauses, A, [host(b)]).
