@@ -79,18 +79,6 @@ promise(contents_are_for_that_host_alone, host_setup,
          \s       item("-
         "    ->  host_name(Host, _),\n\c
          \s       item(").
-promise(damaged_file_is_refused, saving,
-        'prolog/typhon/network/saving.pl',
-        "    (   sum_of(Body, Sum)\n\c
-         \s   ->  true"-
-        "    (   sum_of(Body, _)\n\c
-         \s   ->  true").
-promise(other_version_is_refused, saving,
-        'prolog/typhon/network/saving.pl',
-        "    (   format_version(Version)\n\c
-         \s   ->  true"-
-        "    (   integer(Version)\n\c
-         \s   ->  true").
 promise(changes_follow_the_seed, dynamics,
         'prolog/typhon/network/dynamics.pl',
         "    chance_seed(Seed, Chance0),\n\c
@@ -98,3 +86,43 @@ promise(changes_follow_the_seed, dynamics,
         "    Seed = _,\n\c
          \s   chance_seed(1, Chance0),\n\c
          \s   empty_heap").
+promise(no_message_is_under_way_in_a_file, saving,
+        'prolog/typhon/network/saving.pl',
+        "               ( all_do(Network, Ps, flush(Peers), Deadline),\n                 \c
+         all_do(Network, Ps, rest(Peers), Deadline) ))"-
+        "               true)").
+promise(pending_goals_are_saved, saving,
+        'prolog/typhon/network/saving.pl',
+        "            ( member(N-Goal, Pairs), due(Network, at(N), Stamp) ),"-
+        "            ( member(N-Goal, Pairs), N == none, Stamp = 0 ),").
+promise(clock_of_a_network_continues, saving,
+        'prolog/typhon/network/saving.pl',
+        "    time_now(Now),\n    dynamics"-"    Now = 0,\n    dynamics").
+promise(network_continues_after_an_error, saving,
+        'prolog/typhon/network/saving.pl',
+        "    call_cleanup(collect_state(Network, Ps, State, Terms),\n                 \c
+         resume_all(Network, Ps)),"-
+        "    collect_state(Network, Ps, State, Terms),\n    \c
+         resume_all(Network, Ps),").
+promise(saving_has_a_deadline, saving,
+        'prolog/typhon/network/saving.pl',
+        "    (   memberchk(late, Answers)\n    ->  throw"-
+        "    (   fail\n    ->  throw").
+promise(file_ends_with_its_checksum, saving,
+        'prolog/typhon/network/saving.pl',
+        "    (   sum_of(Body, Sum)\n"-"    (   sum_of(Body, _)\n").
+promise(older_file_is_replaced_when_the_new_one_is_complete, saving,
+        'prolog/typhon/network/saving.pl',
+        "    private_write(File, write_all([Header|Terms]))."-
+        "    write_all([Header|Terms], File).").
+promise(host_outside_the_network_is_refused, saving,
+        'prolog/typhon/network/saving.pl',
+        "    permission_error(save, host, Address)."-
+        "    print_message(silent, beside(Address)).").
+promise(cut_file_is_refused, saving,
+        'prolog/typhon/network/saving.pl',
+        "    (   append(Lines, [End, \"\"], Parts),\n"-
+        "    (   append(Lines, [End|_], Parts),\n").
+promise(file_of_another_version_is_refused, saving,
+        'prolog/typhon/network/saving.pl',
+        "    (   format_version(Version)\n"-"    (   integer(Version)\n").
