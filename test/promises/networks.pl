@@ -126,3 +126,6 @@ promise(cut_file_is_refused, saving,
 promise(file_of_another_version_is_refused, saving,
         'prolog/typhon/network/saving.pl',
         "    (   format_version(Version)\n"-"    (   integer(Version)\n").
+promise(no_agent_runs_while_a_network_is_saved, saving,
+        'prolog/typhon/network/saving.pl',
+        "    all_do(Network, Ps, hold, Deadline),\n"-"").

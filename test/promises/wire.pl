@@ -257,7 +257,7 @@ promise(hand_over_has_one_result, settlement,
          Result = unsent"-
         "            ;   member(Token, Unsent),\n                \c
          Result = lost").
-promise(undeclared_term_is_refused, [protocol, arrivals],
+promise(undeclared_term_is_refused, [kinds, protocol],
         'prolog/typhon/kernel/wire/kinds.pl',
         "        Verdict = undeclared\n"-"        Verdict = ok\n").
 promise(right_is_needed, arrivals,
@@ -268,11 +268,11 @@ promise(refusals_are_audited, arrivals,
         "    ;   ignore(peer_permitted(undeclared(Kind), all, Term, Peer)),\n\c
          "-
         "    ;   true,\n").
-promise(types_of_arguments_are_checked, arrivals,
+promise(types_of_arguments_are_checked, kinds,
         'prolog/typhon/kernel/wire/kinds.pl',
         "tests(Type, Term, [is_a(Type, Term)]) :-\n    type(Type),\n    !."-
         "tests(Type, _, []) :-\n    type(Type),\n    !.").
-promise(name_is_bounded, arrivals,
+promise(name_is_bounded, kinds,
         'prolog/typhon/kernel/wire/kinds.pl',
         "    Length =< 65 536."-"    Length =< 655 360.").
 promise(known_hop_has_no_effect_when_the_agent_is_there, arrival,

@@ -6,6 +6,7 @@
 :- use_module(library(lists), [last/2, member/2, sum_list/2]).
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
+:- use_module(library(typhon/kernel/agent/mailbox), [mail_fitting/4]).
 
 /** <module> Mailboxes that are full
 
@@ -71,6 +72,24 @@ test(platform_messages_always_fit, true(Last == system-down(B, done))) :-
                        agent_send(B, stop),
                        wait_until(( waiting(A, All), length(All, 1001) ), 10),
                        last(All, Last) ))).
+test(messages_that_come_together_fit_as_far_as_there_is_space,
+     [ forall(member(Before-Expected, [ 998-[user-1, user-2, system-3],
+                                        1000-[system-3] ])),
+       Fit == Expected ]) :-
+    small(with_hosts([alpha],
+                     ( create([(main :- receive(_-stop))], A),
+                       wait_state(A, waiting),
+                       forall(between(1, Before, I), agent_send(A, I)),
+                       findall(mail(N, From, N),
+                               member(From-N, [ user-1, user-2, user-4, system-3,
+                                                user-5 ]),
+                               Mail),
+                       mail_fitting(A, Mail, Fitting, Rest),
+                       length(Rest, Left),
+                       length(Expected, Fitted),
+                       Left =:= 5-Fitted,
+                       findall(From-N, member(mail(_, From, N), Fitting),
+                               Fit) ))).
 test(full_mailbox_hops, true(Same-Error == true-resource_error(mailbox))) :-
     small(with_hosts([alpha, beta],
                      ( full(A, [host(alpha)]),
