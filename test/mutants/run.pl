@@ -343,19 +343,19 @@ outcome([suite(Suite, Processor, Seconds)|Suites], Copy, Until, Outcome) :-
     ;   outcome(Suites, Copy, Until, Outcome)
     ).
 
-%   A variable that occurs once, since a goal is left out, is no test.
+%   A variable that occurs once, since a goal is left out, is no test.  The file
+%   of an agent takes no directives but its own.
 
 without_style_warnings(Path, Text0, Text) :-
-    (   file_rules(Path, rules(End, _))
-    ->  true
-    ;   End = 0
-    ),
+    file_rules(Path, rules(End, _)),
+    !,
     sub_string(Text0, 0, End, _, Before),
     sub_string(Text0, End, _, 0, After),
     atomics_to_string(
         [ Before,
           " :- style_check(-singleton), style_check(-discontiguous).", After ],
         Text).
+without_style_warnings(_, Text, Text).
 
 atomics_to_string(Parts, String) :-
     atomic_list_concat(Parts, Atom),

@@ -9,7 +9,8 @@ promise(half_of_the_pheromones_are_of_a_neighbour, pheromone,
 promise(size_of_a_pheromone_is_bounded, pheromone,
         'prolog/typhon/options/migration/pheromone.pl',
         "    setting(cells, Most),\n    is_tree(Problem, Most)."-
-        "    is_tree(Problem, inf).").
+        "    setting(cells, Most),\n    \c
+         ( is_tree(Problem, Most) ; Most > 0 ).").
 promise(offers_of_an_agent_are_bounded, directory,
         'prolog/typhon/options/directory/offers.pl',
         "    (   Count < Most\n"-"    (   Count =< Most\n").
