@@ -11,10 +11,10 @@ promise(links_are_restored, restored,
         'prolog/typhon/kernel/host/links.pl',
         "    durable_put(link, Key, 0, link(Name, Address, Now))."-
         "    true.").
-promise(agents_are_restored, journal,
+promise(agents_are_restored, restored,
         'prolog/typhon/options/journal/journaled_agents.pl',
-        "    note_item(Id, agent, 0, agent(Host, Hash, Life, State, Status, Goals), _)."-
-        "    true.").
+        "agent(Host, Hash, Life, State, Status, Goals), _)."-
+        "agent(Host, Hash, Life, State, resident, Goals), _).").
 promise(mailboxes_are_restored, restored,
         'prolog/typhon/kernel/agent/mailbox.pl',
         "    durable_number(N),\n    durable_put(mail, Id, N, Message),"-
@@ -96,7 +96,7 @@ promise(effects_and_next_goals_are_one_entry, restored,
         'prolog/typhon/options/journal/journaled_agents.pl',
         "        agent_note(Id, ready, Goals),\n        enqueue_changes,"-
         "        enqueue_changes,\n        agent_note(Id, ready, Goals),").
-promise(interrupted_step_is_repeated, journal,
+promise(interrupted_step_is_repeated, restored,
         'prolog/typhon/options/journal/units_of_work.pl',
         "    forall(retract(deferred(Change)), changes_add(Change))."-
         "    true.").
@@ -138,7 +138,7 @@ promise(changes_wait_while_commits_fail, restored,
         'prolog/typhon/options/journal/committing.pl',
         "          ( assertz(unsaved(Changes, Items)),\n            throw"-
         "          ( assertz(unsaved([], Items)),\n            throw").
-promise(arrival_is_committed_before_the_answer, journal,
+promise(arrival_is_committed_before_the_answer, restored,
         'prolog/typhon/kernel/wire/outbox.pl',
         "    (   durable_on\n    \c
          ->  send_committed(Session, Bytes, none, later)\n    \c

@@ -98,12 +98,6 @@ promise(pending_goals_are_saved, saving,
 promise(clock_of_a_network_continues, saving,
         'prolog/typhon/network/saving.pl',
         "    time_now(Now),\n    dynamics"-"    Now = 0,\n    dynamics").
-promise(network_continues_after_an_error, saving,
-        'prolog/typhon/network/saving.pl',
-        "    call_cleanup(collect_state(Network, Ps, State, Terms),\n                 \c
-         resume_all(Network, Ps)),"-
-        "    collect_state(Network, Ps, State, Terms),\n    \c
-         resume_all(Network, Ps),").
 promise(saving_has_a_deadline, saving,
         'prolog/typhon/network/saving.pl',
         "    (   memberchk(late, Answers)\n    ->  throw"-
@@ -126,6 +120,3 @@ promise(cut_file_is_refused, saving,
 promise(file_of_another_version_is_refused, saving,
         'prolog/typhon/network/saving.pl',
         "    (   format_version(Version)\n"-"    (   integer(Version)\n").
-promise(no_agent_runs_while_a_network_is_saved, saving,
-        'prolog/typhon/network/saving.pl',
-        "    all_do(Network, Ps, hold, Deadline),\n"-"").

@@ -130,11 +130,6 @@ promise(standby_takes_over, supervisor,
         'agents/supervisor.pl',
         "        stop_all(Names),\n        supervise\n"-
         "        stop_all(Names)\n").
-promise(standby_ends_the_children_first, supervisor,
-        'agents/supervisor.pl',
-        "        findall(Name, running(Name, _), Names),\n        \c
-         stop_all(Names),\n        supervise"-
-        "        supervise").
 promise(permanent_child_starts_again, supervisor,
         'agents/supervisor.pl',
         "starts_again(permanent, _)."-

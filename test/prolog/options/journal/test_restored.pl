@@ -108,14 +108,24 @@ snapshot(Dir) :-
           sync_changes,
           items(dumped, Before),
           items(stored, Stored),
+          agents(Agents),
           copied(Journal, Copy),
           host_stop(beta) )),
     forall(( filled(Kinds), member(Kind, Kinds) ),
            assertion(memberchk(Kind-_-_, Before))),
     assertion(Stored =@= Before),
     running(Copy, normal,
-        ( items(dumped, After), host_stop(beta) )),
-    assertion(After =@= Before).
+        ( items(dumped, After), agents(Again), host_stop(beta) )),
+    assertion(After =@= Before),
+    assertion(Again =@= Agents).
+
+agents(Agents) :-
+    findall(Id-[State, Facts, Goals],
+            ( agent_property(Id, state(State)),
+              agent_property(Id, facts(Facts)),
+              agent_property(Id, goals(Goals)) ),
+            Agents0),
+    sort(Agents0, Agents).
 
 %   The process has its id and its port again, not its number.
 
@@ -374,6 +384,27 @@ test(output_follows_the_commit_of_all_changes_before_it,
 test(output_waits_while_commits_fail,
      [ forall(member(Sync, [normal, full])), Before-After == []-[1, 2] ]) :-
     no_leaks(with_tmp_dir(failing(Sync, Before, After))).
+
+%   The answer to a hop, which the next frame takes along.
+
+test(answer_that_is_sent_later_waits_for_the_commit, Written == 0) :-
+    no_leaks(with_tmp_dir(answered_later(Written))).
+
+answered_later(Written, Dir) :-
+    running(Dir, normal,
+        ( endpoint_address(Me),
+          typhon_waiting:manager_connect(Me),
+          typhon_session:session(self_server, Session),
+          typhon_outbox:session_later_begin(Session),
+          sync_changes,
+          typhon_unacked:session_unacked(Session, Before),
+          with_mutex(typhon_commit,     % no other thread commits
+                     ( change(put(1, 1)),
+                       typhon_outbox:session_send_later(Session,
+                                                        post(no_kind, x)),
+                       typhon_unacked:session_unacked(Session, After) )),
+          Written is After-Before,
+          nb_delete(typhon_later) )).
 
 test(sync_returns_after_the_commit, [ forall(member(Sync, [normal, full])) ]) :-
     no_leaks(with_tmp_dir(synced(Sync))).
