@@ -211,20 +211,20 @@ promise(resting_sessions_are_bounded, wire,
         'prolog/typhon/kernel/wire/connection_manager.pl',
         "    (   Count > Max,\n        retract(resting"-
         "    (   Count > 10*Max,\n        retract(resting").
-promise(no_listener_is_unreachable_at_once, wire,
+promise(no_listener_is_unreachable_at_once, attempts,
         'prolog/typhon/kernel/wire/attempts.pl',
         "    \\+ may_pass(Formal),\n    \\+ soon_there"-
         "    Formal == never,\n    \\+ soon_there").
-promise(expected_process_is_awaited, wire,
+promise(expected_process_is_awaited, attempts,
         'prolog/typhon/kernel/wire/attempts.pl',
         "soon_there(socket_error(econnrefused, _), Address) :-\n    \c
          peer_expected(Address)."-
-        "soon_there(_, _) :-\n    fail.").
-promise(broken_handshake_is_tried_again, wire,
+        "soon_there(_, 'none:1').").
+promise(broken_handshake_is_tried_again, attempts,
         'prolog/typhon/kernel/wire/attempts.pl',
         "may_pass(io_error(_, _)).\nmay_pass(syntax_error(end_of_file)).\n"-
         "").
-promise(attempts_are_few, wire,
+promise(attempts_are_few, attempts,
         'prolog/typhon/kernel/wire/attempts.pl',
         "    Count >= Many."-"    Count >= 10*Many.").
 promise(contacts_are_bounded, wire,
