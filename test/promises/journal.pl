@@ -61,10 +61,14 @@ promise(restored_host_may_be_started_once, journal,
 promise(sync_full_survives_a_power_failure, store,
         'prolog/typhon/options/journal/database.pl',
         "    pragma(Connection, synchronous, Sync),\n"-"").
-promise(last_host_rests, journal,
+promise(last_host_rests, restored,
         'prolog/typhon/kernel/host/hosting.pl',
-        "    ;   durable_close\n    ),\n    (   durable_closed"-
-        "    ;   true\n    ),\n    (   durable_closed").
+        "    stop_steps([ close_last(Name),\n                 \c
+         host_close(Name),\n                 each(closes(Name)),\n                 \c
+         evacuate(Name),"-
+        "    stop_steps([ host_close(Name),\n                 \c
+         each(closes(Name)),\n                 evacuate(Name),\n                 \c
+         close_last(Name),").
 promise(host_beside_others_ends, restored,
         'prolog/typhon/kernel/host/hosts.pl',
         "    durable_drop(host, Name, 0),\n"-"").

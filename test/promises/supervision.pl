@@ -121,11 +121,6 @@ promise(old_restarts_do_not_count, supervisor,
 promise(three_restarts_in_five_seconds_by_default, supervisor,
         'agents/supervisor.pl',
         "Most = 3, Seconds = 5 ),"-"Most = 3, Seconds = 50 ),").
-promise(supervisor_that_gives_up_ends_its_children, supervisor,
-        'agents/supervisor.pl',
-        "    findall(Running, running(Running, _), Names),\n    \c
-         stop_all(Names),\n    dispose."-
-        "    dispose.").
 promise(standby_takes_over, supervisor,
         'agents/supervisor.pl',
         "        stop_all(Names),\n        supervise\n"-

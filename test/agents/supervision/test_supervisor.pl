@@ -117,7 +117,9 @@ test(children_end_with_the_supervisor, [true(O1-O2 == disposed-disposed)]) :-
 test(places, [forall(member(Where-Begins,
                             [ here-alpha, on(gamma)-gamma,
                               least_loaded-gamma, tagged(big)-beta,
-                              [tagged(none),on(nowhere),on(beta)]-beta ]))]) :-
+                              [tagged(none),on(nowhere),on(beta)]-beta,
+                              [on(beta),on(gamma)]-beta,
+                              [on(gamma),on(beta)]-gamma ]))]) :-
     with_hosts([alpha,beta,gamma],
         capturing(
             ( link(alpha, beta), link(alpha, gamma),
