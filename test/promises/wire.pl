@@ -324,12 +324,6 @@ promise(lost_hop_asks_all_processes, faults,
         "    (   memberchk(true, All)\n    ->  transfer_arrived(Transfer)\n    \c
          ;   HomeAnswer"-
         "    (   HomeAnswer").
-promise(agent_is_in_doubt_until_all_have_answered, faults,
-        'prolog/typhon/kernel/travel/in_doubt.pl',
-        "    ->  settle_later(Transfer)\n    \c
-         ;   transfer_unreachable(Transfer)"-
-        "    ->  transfer_unreachable(Transfer)\n    \c
-         ;   transfer_unreachable(Transfer)").
 promise(answer_precedes_news_of_the_agent, scripted,
         'prolog/typhon/kernel/wire/outbox.pl',
         "    (   Own == Session\n    ->  none_later(Later)\n    \c

@@ -2,6 +2,7 @@
 :- use_module('../../lib/common').
 :- use_module('../../lib/fixtures').
 :- use_module(library(plunit)).
+:- use_module(library(prolog_wrap), [unwrap_predicate/2, wrap_predicate/4]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(process), [process_kill/2]).
@@ -528,6 +529,9 @@ test(unserializable_state,
      all(Result == [type_error, "old", goes_on])) :-
     with_tmp_dir(unwritable(Results)),
     member(Result, Results).
+test(file_that_is_not_complete_replaces_no_older_one,
+     [Formal, Old] == [resource_error(disk), New]) :-
+    with_tmp_dir(not_complete(Formal, Old, New)).
 test(other_host_in_the_process,
      error(permission_error(save, host, 'beside@virtual:0'))) :-
     with_network(ring(3), [clock(virtual)], N,
@@ -575,6 +579,21 @@ unwritable([Error,Old,goes_on], Dir) :-
     directory_files(Dir, Files),
     msort(Files, ['.', '..', file]),
     read_file_to_string(File, Old, []).
+
+%   Writing ends with an error when most has been written.
+
+not_complete(Formal, Old, New, Dir) :-
+    atom_concat(Dir, '/file', File),
+    saved_small(File),
+    read_file_to_string(File, Old, []),
+    setup_call_cleanup(
+        wrap_predicate(typhon_saving:sum(_, _), test_saving, _,
+                       throw(error(resource_error(disk), _))),
+        catch(saved_small(File), error(Formal, _), true),
+        unwrap_predicate(typhon_saving:sum/2, test_saving)),
+    directory_files(Dir, Files),
+    msort(Files, ['.', '..', file]),
+    read_file_to_string(File, New, []).
 
 saved_small(File) :-
     with_network(ring(3), [clock(virtual), seed(3)], N,
