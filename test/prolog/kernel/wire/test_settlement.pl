@@ -15,8 +15,8 @@
 :- use_module(library(typhon/kernel/wire/settlement)).
 :- use_module(library(typhon/kernel/wire/unacked)).
 
-%   with_window(-Session, -Window, -Out, :Goal): those of a session that has sent and
-%   received nothing.
+%   with_window(-Session, -Window, -Out, :Goal): those of a session that has
+%   sent and received nothing.
 
 :- meta_predicate with_window(-, -, -, 0).
 
