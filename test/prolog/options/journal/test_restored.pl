@@ -105,19 +105,21 @@ snapshot(Dir) :-
     atom_concat(Dir, '/copy', Copy),
     running(Journal, normal,
         ( capturing(life(Dir), _),
+          wait_until(( agents(Agents), \+ memberchk(_-[running|_], Agents) ),
+                     20),
           sync_changes,
           items(dumped, Before),
           items(stored, Stored),
-          agents(Agents),
           copied(Journal, Copy),
           host_stop(beta) )),
     forall(( filled(Kinds), member(Kind, Kinds) ),
            assertion(memberchk(Kind-_-_, Before))),
     assertion(Stored =@= Before),
     running(Copy, normal,
-        ( items(dumped, After), agents(Again), host_stop(beta) )),
-    assertion(After =@= Before),
-    assertion(Again =@= Agents).
+        ( items(dumped, After),
+          wait_until(( agents(Again), Again =@= Agents ), 20),
+          host_stop(beta) )),
+    assertion(After =@= Before).
 
 agents(Agents) :-
     findall(Id-[State, Facts, Goals],
@@ -402,8 +404,7 @@ answered_later(Written, Dir) :-
           typhon_unacked:session_unacked(Session, Before),
           with_mutex(typhon_commit,     % no other thread commits
                      ( change(put(1, 1)),
-                       typhon_outbox:session_send_later(Session,
-                                                        post(no_kind, x)),
+                       typhon_outbox:session_send_later(Session, bundle([])),
                        typhon_unacked:session_unacked(Session, After) )),
           Written is After-Before,
           nb_delete(typhon_later) )).
