@@ -201,10 +201,6 @@ promise(nothing_is_committed_after_a_failed_sync, store,
         "    (   Error = error(journal_unwritten(_, _), _)\n    \c
          ->  assertz(broken(Error))\n"-
         "    (   Error = error(journal_unwritten(_, _), _)\n    ->  true\n").
-promise(item_that_is_not_restored_is_kept, journal_guarded,
-        'prolog/typhon/options/journal/recovery.pl',
-        "    forall(( member(Id, Ids), \\+ not_restored(Id, _) ),"-
-        "    forall(member(Id, Ids),").
 promise(keys_are_bounded, store,
         'prolog/typhon/options/journal/units_of_work.pl',
         "    Length =< 500,"-"    Length =< 5000,").

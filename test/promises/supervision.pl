@@ -66,16 +66,6 @@ promise(agent_of_a_dead_process_is_lost, monitors,
          report_lost(Agent, Address))."-
         "    forall(member(at(Agent, Address, _, none), Lost),\n           \c
          report_lost(Agent, Address)).").
-promise(agent_that_another_process_has_is_not_lost, monitors,
-        'prolog/typhon/options/supervision/monitored_agents.pl',
-        "    exclude(may_be_found(Results), Absent, Missing)."-
-        "    exclude(may_be_found([]), Absent, Missing0),\n    \c
-         ( Results == [] -> Missing = Missing0 ; Missing = Absent ).").
-promise(cut_off_process_is_not_gone, monitors,
-        'prolog/typhon/options/supervision/failed_processes.pl',
-        "has_failed(Peer, _) :-\n    endpoint_gone(Peer),\n    !."-
-        "has_failed(Peer, _) :-\n    \\+ endpoint_peer(Peer, state(up)),\n    \c
-         !.").
 promise(process_with_a_journal_is_not_gone, monitors,
         'prolog/typhon/kernel/wire/peer_cache.pl',
         "    endpoint_left(Address),\n    \\+ endpoint_lasting(Address)."-

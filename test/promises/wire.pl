@@ -227,9 +227,6 @@ promise(broken_handshake_is_tried_again, attempts,
 promise(attempts_are_few, attempts,
         'prolog/typhon/kernel/wire/attempts.pl',
         "    Count >= Many."-"    Count >= 10*Many.").
-promise(contacts_are_bounded, wire,
-        'prolog/typhon/kernel/wire/peer_cache.pl',
-        "    Excess is Count-Max,"-"    Excess is Count-2*Max,").
 promise(refused_address_is_gone, endpoint,
         'prolog/typhon/kernel/wire/connection.pl',
         "    ->  peer_gone(Address)\n"-"    ->  true\n").
@@ -281,29 +278,10 @@ promise(known_hop_has_no_effect_when_the_agent_is_there, arrival,
          ->  life_hops(Life, Hops0),\n        Hops0 >= Hops\n    \c
          ;   gone_on(Id, Hops)\n    ).\n\ngone_on"-
         "    gone_on(Id, Hops).\n\ngone_on").
-promise(known_hop_has_no_effect_when_the_agent_has_left, scripted,
-        'prolog/typhon/kernel/travel/arrival.pl',
-        "    ;   agent_heard_of(Id, Hops0),\n        Hops0 >= Hops\n    )."-
-        "    ;   fail\n    ).").
 promise(known_hop_has_no_effect_when_the_agent_has_ended, arrival,
         'prolog/typhon/kernel/travel/arrival.pl',
         "    (   agent_outcome(Id, _)\n    ->  true\n    ;   agent_heard_of"-
         "    (   agent_heard_of").
-promise(known_hop_has_no_effect_when_handed_over, scripted,
-        'prolog/typhon/kernel/travel/whereabouts.pl',
-        "    \\+ agent_outcome(Id, _),\n    \c
-         \\+ ( ( forward(Id, _, Hops0, _) ; ended_here(Id, Hops0) ),\n         \c
-         Hops0 >= Hops )."-
-        "    \\+ agent_outcome(Id, _).").
-promise(known_hop_has_no_effect_at_home, scripted,
-        'prolog/typhon/kernel/travel/whereabouts.pl',
-        "    home_knows(Id, _, Hops0, _),\n    !,\n    Hops0 < Hops,\n    \c
-         Home = here."-
-        "    home_knows(Id, _, _, _),\n    !,\n    Home = here.").
-promise(missing_program_is_requested, hop,
-        'prolog/typhon/kernel/travel/arrival.pl',
-        "    ;   Verdict = need_program\n"-
-        "    ;   Verdict = refused(unknown_program)\n").
 promise(refused_hop_raises_at_the_move, hand_over,
         'prolog/typhon/kernel/travel/hand_over.pl',
         "    settled(Result, Transfer).\n\nsettled(accepted"-
@@ -313,23 +291,11 @@ promise(mail_follows_the_agent, hand_over,
         'prolog/typhon/kernel/travel/hand_over.pl',
         "    agent_gone(Id, Hops, Mail),\n    post_on(Id, Mail)."-
         "    agent_gone(Id, Hops, _).").
-promise(lost_hop_asks_the_home, faults,
-        'prolog/typhon/kernel/travel/in_doubt.pl',
-        "home_answered(Transfer, answer(true)) :-\n    !,\n    \c
-         transfer_arrived(Transfer)."-
-        "home_answered(Transfer, answer(true)) :-\n    !,\n    \c
-         transfer_unreachable(Transfer).").
 promise(lost_hop_asks_all_processes, faults,
         'prolog/typhon/kernel/travel/in_doubt.pl',
         "    (   memberchk(true, All)\n    ->  transfer_arrived(Transfer)\n    \c
          ;   HomeAnswer"-
         "    (   HomeAnswer").
-promise(answer_precedes_news_of_the_agent, scripted,
-        'prolog/typhon/kernel/wire/outbox.pl',
-        "    (   Own == Session\n    ->  none_later(Later)\n    \c
-         ;   session_push(Own)\n    ).\nanswers_first(_)."-
-        "    (   Own == Session\n    ->  none_later(Later)\n    ;   true\n    \c
-         ).\nanswers_first(_).").
 promise(newest_news_counts, news,
         'prolog/typhon/kernel/travel/news.pl',
         "    \\+ newer(News, Known),\n    !."-"    News == Known,\n    !.").
