@@ -4,7 +4,8 @@
                                         % -Next
             effect_order/4              % +Id, +Here, +Host, +Goals
           ]).
-:- use_module(library(error), [must_be/2, permission_error/3, type_error/2]).
+:- use_module(library(error),
+              [domain_error/2, must_be/2, permission_error/3, type_error/2]).
 :- use_module('../base/prng',
               [chance_hash/2, chance_seed/2, chance_uniform/5]).
 :- use_module('../program', [answer_at/3]).
@@ -16,7 +17,7 @@
               [ agent/5, agent_here/5, agent_name/3, agent_note/3,
                 agent_put/3, agent_ready/2, agent_rest/3, agent_rests/3,
                 agent_status/3,
-                agent_wakes/2, life_hops/2, life_may_move/2, mail_take/2,
+                agent_wakes/2, fault_error/2, life_hops/2, life_may_move/2, mail_take/2,
                 with_agent/2 ]).
 :- use_module('../travel',
               [ hand_over/5, hop/6, hop_at_once/6, hop_clone/6, move_failed/2,
@@ -116,7 +117,10 @@ effect(receive_until(Message, Until), Hole, Goals, Where, Next) :-
 effect(dispose, _, _, Id-_, stop) :-
     ignore(agent_end(Id, disposed)).
 effect('$fault'(Fault), '$fault'(Fault), Goals, Id-_, stop) :-
-    agent_stays(Id, Goals).
+    (   fault_error(Fault, _)
+    ->  agent_stays(Id, Goals)
+    ;   domain_error(fault, Fault)      % the program has made it up
+    ).
 
 %   The parent has the id of its clone from the moment the clone exists.
 

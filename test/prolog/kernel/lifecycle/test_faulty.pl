@@ -514,4 +514,9 @@ test(agent_runs_when_it_is_resumed, Outcome == done) :-
          wait_until(\+ agent_property(A, host(_)), 10),
          joined(A, Outcome) )).
 
+test(fault_that_a_program_makes_up_is_an_error_of_the_agent,
+     true(Error == domain_error(fault, x))) :-
+    on([alpha], ( faulty([(main :- '$fault'(x))], A),
+                  joined(A, raised(error(Error, _))) )).
+
 :- end_tests(incomplete_steps).
