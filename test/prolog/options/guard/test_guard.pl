@@ -5,6 +5,7 @@
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(solution_sequences), [limit/2]).
 :- use_module(library(yall)).
 :- use_module(library(typhon)).
 
@@ -208,8 +209,12 @@ raises_in(Call, G, Goal) :-
     Outcome = raised(error(Formal, _)),
     of_policy(Formal).
 
+%   An attack that gets through may leave an agent that does not end.
+
 joined_guarded(A, Outcome) :-
-    agent_join(A, Outcome, 60).
+    wait_until(( agent_join(A, Outcome, 0), Outcome \== timeout
+               ; agent_property(A, state(faulty(_))) ), 60),
+    nonvar(Outcome).
 
 of_policy(move_refused(_, policy(_))).
 of_policy(permission_error(call, sandboxed, _)).
@@ -254,8 +259,8 @@ outcome(Clauses, Outcome) :-
 
 test(each_attack_is_refused, Through == []) :-
     with_hosts([g-[policy(guarded), cell(none)]],
-               capturing(findall(G, ( attack(G), \+ refused(G) ), Through),
-                         _)).
+               capturing(findall(G, limit(1, ( attack(G), \+ refused(G) )),
+                                 Through), _)).
 
 test(constructed_goals_are_checked, Escaped-Count == 0-many) :-
     flag(typhon_guard_escaped, _, 0),
