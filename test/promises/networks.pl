@@ -86,11 +86,6 @@ promise(changes_follow_the_seed, dynamics,
         "    Seed = _,\n\c
          \s   chance_seed(1, Chance0),\n\c
          \s   empty_heap").
-promise(no_message_is_under_way_in_a_file, saving,
-        'prolog/typhon/network/saving.pl',
-        "               ( all_do(Network, Ps, flush(Peers), Deadline),\n                 \c
-         all_do(Network, Ps, rest(Peers), Deadline) ))"-
-        "               true)").
 promise(pending_goals_are_saved, saving,
         'prolog/typhon/network/saving.pl',
         "            ( member(N-Goal, Pairs), due(Network, at(N), Stamp) ),"-
