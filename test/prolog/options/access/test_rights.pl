@@ -7,6 +7,7 @@
 :- use_module(library(readutil), [read_file_to_terms/3]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/options/access), []).
+:- use_module(library(typhon/options/identity/sender_rights), []).
 :- use_module(library(typhon/kernel/wire), [endpoint_address/1]).
 
 /** <module> Rights by proofs, on which hosts, and what the audit keeps
@@ -180,7 +181,34 @@ test(text_of_peers_stays_on_its_line, Whats == [undeclared('a\nb\e[2J\u202Ec')])
             once(typhon_kinds:peer_permitted(undeclared('a\nb\e[2J\u202Ec'), all,
                                              x, Me)) ), Whats).
 
+test(entries_of_peers_are_short, [true(Length < 1000)]) :-
+    atom_of(100 000, Long),
+    noted(( endpoint_address(Me),
+            once(typhon_kinds:peer_permitted(undeclared(Long), all, x, Me)) ),
+          Whats),
+    format(string(Text), "~q", [Whats]),
+    string_length(Text, Length).
+test(audit_is_for_its_user_alone, Mode == "-rw-------") :-
+    with_tmp_dir(audit_mode(Mode)).
+test(message_in_the_name_of_another_is_noted, [true(Noted == yes)]) :-
+    noted(( endpoint_address(Me),
+            create([on_message(_, _)], A, [host(g)]),
+            capturing(typhon_sender_rights:report_forged(Me, A, other), _) ),
+          Whats),
+    ( memberchk(refused(A, from(other)), Whats) -> Noted = yes
+    ; Noted = Whats ).
+
 :- end_tests(audit).
+
+audit_mode(Mode, Dir) :-
+    directory_file_path(Dir, audit, File),
+    with_hosts([g-[audit(File)]],
+               ( endpoint_address(Me),
+                 once(typhon_kinds:peer_permitted(undeclared(k), all, x, Me)) )),
+    format(atom(Command), 'ls -l ~w', [File]),
+    setup_call_cleanup(open(pipe(Command), read, In), read_string(In, _, Line),
+                       close(In)),
+    sub_string(Line, 0, 10, _, Mode).
 
 atom_of(N, Atom) :-
     length(Codes, N),

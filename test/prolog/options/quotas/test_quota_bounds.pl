@@ -253,6 +253,18 @@ test(clones_of_an_owner_and_of_a_host,
                       host(clones(2))-[over(clones),over(clones)] ])),
       Results == Expected]) :-
     with_quotas([Quota], acts([a1,b], clone, Results)).
+test(clones_of_a_family, Results == [[ok,ok,over(clones)],[over(clones)]]) :-
+    with_hosts([g-[quota([clones(2)])]],
+               ( family(2, A), clones([A,A,A], R1),
+                 family(1, B), clones([B], R2) )),
+    Results = [R1,R2].
+test(payloads_of_an_agent, Results == [ok,over(payloads)]) :-
+    with_hosts([g-[quota([payloads(1)])]],
+               findall(R, ( member(Ps, [[],[clauses([ (:- payload(p, [provides([q/1])])), q(1) ])]]),
+                            create([on_message(_, _)], A,
+                                   [host(g), payloads(Ps)]),
+                            result(typhon_usage:acts(g, A, attach), R) ),
+                       Results)).
 test(messages_that_fit_into_a_mailbox,
      Counts == [0-0,2-2,2-3]) :-
     setup_call_cleanup(
@@ -295,6 +307,23 @@ test(stack_of_a_turn, Acts = [none,stop_in(_, a1, stack)]) :-
         ( thread_send_message(Thread, go), thread_join(Thread) )).
 
 :- end_tests(quotas_of_amounts).
+
+%   family(+N, -Agent): N more agents of one program are on the host g.
+
+family(N, Agent) :-
+    findall(A, ( between(1, N, _), create([on_message(_, _)], A, [host(g)]),
+                 wait_state(A, resident) ), [Agent|_]).
+
+clones(Agents, Results) :-
+    repeat,
+    typhon_usage:this_second(Second),
+    typhon_usage:usage_forget(g),
+    forall(member(A, Agents),
+           assertion(agent_property(A, host(_)))),
+    findall(R, ( member(A, Agents),
+                 result(typhon_usage:may_clone(g, A), R) ), Results),
+    typhon_usage:this_second(Second),
+    !.
 
 exceeds(Thread, Seconds, Act) :-
     (   typhon_quota_enforcer:exceeds(a1, h, Thread, Seconds, Act0),

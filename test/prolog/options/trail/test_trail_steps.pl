@@ -1,6 +1,7 @@
 :- module(test_trail_steps, []).
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/authority').
+:- use_module('../../../lib/fixtures').
 :- use_module(library(plunit)).
 :- use_module(library(apply), [foldl/4]).
 :- use_module(library(filesex),
@@ -197,6 +198,14 @@ test(received_state_is_signed_with_the_next_link, Links == [1,1,2]) :-
 test(clones_begin_a_trail_of_their_own, Clauses == [s(1)]) :-
     raw([alpha-handed('b@beta:1')], _, Raw),
     typhon_trail:without_trail(h, x, state([], [Raw,s(1)]), state([], Clauses)).
+test(host_without_trails_adds_no_step_but_signs_what_it_received,
+     Kept == [0,1]) :-
+    with_hosts([h-[trail(false)]],
+               findall(K, ( member(Steps, [ [alpha-handed('b@beta:1')],
+                                            [alpha-entered(r),
+                                             alpha-handed('b@beta:1')] ]),
+                            raw(Steps, _, '$trail'(at(_, _, K, _, _), _, _, _))
+                          ), Kept)).
 test(process_without_keys_adds_no_step, State == state([], [s(1)])) :-
     id(Id),
     typhon_trail:trail_link(handed(x), of(h, Id, hash, 1), state([], [s(1)]), [],
