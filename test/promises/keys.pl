@@ -2,11 +2,9 @@
 
 promise(private_keys_stay_private, certificates,
         'app/typhon/keys.pl',
-        "    private(Directory, Key),\n\c
-         \s   openssl(Directory,\n\c
-         \s           [ ca, '-batch'"-
-        "    openssl(Directory,\n\c
-         \s           [ ca, '-batch'").
+        "    chmod(Own, 0o700),\n\c
+         \s   own(Name, 'key.pem', Key),"-
+        "    own(Name, 'key.pem', Key),").
 promise(directory_has_four_files, certificates,
         'app/typhon/keys.pl',
         "    directory_file_path(Directory, Request, RequestFile),\n\c
@@ -43,13 +41,13 @@ promise(replayed_proof_is_refused, auth,
          \s   hello_line"-
         "    Nonce = '000102030405060708090a0b0c0d0e0f',\n\c
          \s   hello_line").
-promise(only_the_owner_creates_its_agents, owners,
+promise(only_the_owner_creates_its_agents, births,
         'prolog/typhon/options/identity/birth.pl',
         "        agent_owned(Id, Owner),\n\c
          \s       at_home(Id),\n"-
         "        atom(Owner),\n\c
          \s       at_home(Id),\n").
-promise(id_belongs_to_one_program, owners,
+promise(id_belongs_to_one_program, births,
         'prolog/typhon/options/identity/birth.pl',
         "    known(Id, birth(_, Hash, _, _)).\n\c
          proved"-
@@ -71,7 +69,7 @@ promise(agent_without_birth_is_refused, owners,
         "    \\+ proved(Papers, Proof, Id, Hash),\n"-
         "    \\+ proved(Papers, Proof, Id, Hash),\n\c
          \s   \\+ known(Id, _),\n").
-promise(senders_are_authenticated, owners,
+promise(senders_are_authenticated, births,
         'prolog/typhon/options/identity/sender_rights.pl',
         "    atom(Id),\n\c
          \s   agent_owned(Id, Name)."-

@@ -150,11 +150,12 @@ test(directory_has_four_files,
     directory_files(Keys, Files0),
     subtract(Files0, ['.','..'], Files1),
     sort(Files1, Files).
-test(private_keys_are_for_their_user_alone, Modes == ["-rw-------","-rw-------"]) :-
+test(private_keys_are_for_their_user_alone,
+     Modes == ["-rw-------","-rw-------","drwx------","drwx------"]) :-
     keys(alpha, Keys),
-    directory_file_path(Keys, 'key.pem', Key),
-    directory_file_path(Keys, '../ca.key', Authority),
-    maplist(mode, [Key,Authority], Modes).
+    maplist(directory_file_path(Keys), ['key.pem','../ca.key','..'],
+            [Key,Authority,Dir]),
+    maplist(mode, [Key,Authority,Keys,Dir], Modes).
 test(names_and_keys_are_checked,
      [forall(member(Kind-Name-Formal,
                     [ host-alpha-permission_error(create, key, alpha),
