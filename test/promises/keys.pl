@@ -216,8 +216,9 @@ promise(seal_is_for_one_receiver, certificates,
         "    rsa_private_decrypt(Private, ForUs, KeyHex, [padding(none)]),").
 promise(changed_seal_is_refused, certificates,
         'prolog/typhon/options/keys.pl',
-        "    length(Tag, 16),                    % shorter tags prove less\n"-
-        "").
+        "Key, Nonce, Text, [tag(Tag)])."-
+        "Key, Nonce, Text,\n\c
+         \s                       [tag(Tag), min_tag_length(4)]).").
 promise(seal_uses_a_fresh_key, certificates,
         'prolog/typhon/options/keys.pl',
         "    crypto_n_random_bytes(12, Nonce),"-

@@ -110,6 +110,7 @@ forged([ alpha-handed('b@beta:1'), beta-received('b@beta:1'), beta-entered(r),
 forged([ alpha-handed('b@beta:1'), beta-entered(r) ], 1, unaccounted(alpha)).
 forged([ alpha-handed('b@beta:1'), beta-handed('c@gamma:1') ], 1,
        unaccounted(alpha)).
+forged([ alpha-handed('b@beta:1'), alpha-entered(r) ], 1, unaccounted(alpha)).
 forged([ alpha-handed('b@beta:1'), beta-changed(s(2)),
          beta-received('b@beta:1'), beta-entered(r) ], 1, unaccounted(alpha)).
 forged([ alpha-handed('b@beta:1'), beta-hops(2), beta-received('b@beta:1'),
@@ -156,6 +157,14 @@ test(links_that_are_taken_away_at_the_end_are_missed,
                                '$trail'(at(N, M, K, Hex, H), "", Pems, P),
                                '$trail'(at(N, M, K, Hex, H), Chain, [], P) ]),
                  verified(Id, Raw, _, V) ), Verdicts).
+test(links_of_another_trail_are_unaccounted,
+     Signed-Verdict == [alpha-entered]-unaccounted(alpha)) :-
+    raw([alpha-entered(r), alpha-entered(s)], Id,
+        '$trail'(At, Chain, Pems, P)),
+    raw([alpha-entered(other)], _, '$trail'(_, Other, _, _)),
+    typhon_trail:chain_links(Chain, [_,Second]),
+    typhon_trail:chain_add(Second, 2-Other, 9, _-Mixed),
+    verified(Id, '$trail'(At, Mixed, Pems, P), Signed, Verdict).
 test(trail_that_is_none_is_unaccounted,
      [ forall(member(Raw, [ _, x, '$trail'(x), '$trail'(at(0, 0, 0, none, none),
                             x, [], none), '$trail'(at(0, 0, 0, none, none), "",
