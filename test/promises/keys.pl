@@ -104,7 +104,8 @@ promise(foreign_certificates_are_invalid, certificates,
          \s   nonvar(Authority),\n").
 promise(signature_is_of_the_text, certificates,
         'prolog/typhon/options/keys.pl',
-        "    atom_concat('3031300d060960864801650304020105000420', Digest, Expected),\n\c
+        "    atom_concat('3031300d060960864801650304020105000420',\c
+         \sDigest, Expected),\n\c
          \s   atom_string(Expected, PlainText),\n\c
          \s   string_lower(PlainHex, PlainText)."-
         "    string_lower(PlainHex, PlainText),\n\c
@@ -156,12 +157,14 @@ promise(hand_over_is_followed_by_a_receipt, trail_steps,
         "    (   Earlier = handed(To, What)\n\c
          \s   ->  is_received(Event, What),\n\c
          \s       arg(1, Event, At),\n\c
-         \s       address_parts(To, Host, _),     % a process may have several\n\c
+         \s       address_parts(To, Host, _),     % a process may have\c
+         \sseveral\n\c
          \s       address_parts(At, Host, _)      % addresses\n"-
         "    (   Earlier = handed(To, What),\n\c
          \s       is_received(Event, What)\n\c
          \s   ->  arg(1, Event, At),\n\c
-         \s       address_parts(To, Host, _),     % a process may have several\n\c
+         \s       address_parts(To, Host, _),     % a process may have\c
+         \sseveral\n\c
          \s       address_parts(At, Host, _)      % addresses\n").
 promise(receipt_names_the_host, trail_steps,
         'prolog/typhon/options/trail/trail_verified.pl',
@@ -194,7 +197,8 @@ promise(oldest_links_are_dropped, trail_steps,
 promise(clones_begin_their_own_trail, trail_steps,
         'prolog/typhon/options/trail/trail.pl',
         "    exclude(of_trail, Clauses0, Clauses)."-
-        "    ( exclude(of_trail, Clauses0, []) -> Clauses = [] ; Clauses = Clauses0 ).").
+        "    ( exclude(of_trail, Clauses0, []) -> Clauses = [] ; Clauses\c
+         \s= Clauses0 ).").
 promise(host_option_disables_trails, trail_steps,
         'prolog/typhon/options/trail/trail.pl',
         "    (   host_option(Host, trail(false))\n"-
@@ -212,7 +216,8 @@ promise(receipt_is_signed_with_the_next_link, trail_steps,
          \s   nonvar(Pending).").
 promise(seal_is_for_one_receiver, certificates,
         'prolog/typhon/options/keys.pl',
-        "    rsa_private_decrypt(Private, ForUs, KeyHex, [padding(pkcs1_oaep)]),"-
+        "    rsa_private_decrypt(Private, ForUs, KeyHex,\c
+         \s[padding(pkcs1_oaep)]),"-
         "    rsa_private_decrypt(Private, ForUs, KeyHex, [padding(none)]),").
 promise(changed_seal_is_refused, certificates,
         'prolog/typhon/options/keys.pl',

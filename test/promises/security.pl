@@ -48,12 +48,14 @@ promise(no_other_library_is_imported, guard_rules,
 promise(measures_of_the_machine_are_withheld, guard_rules,
         'prolog/typhon/options/guard/allowed.pl',
         "nb_current/2,\n\c
-         \s               abolish_all_tables/0, thread_self/1, statistics/2,"-
+         \s               abolish_all_tables/0, thread_self/1,\c
+         \sstatistics/2,"-
         "nb_current/2,\n\c
          \s               abolish_all_tables/0, thread_self/1,").
 promise(terms_are_not_changed_in_place, guard_rules,
         'prolog/typhon/options/guard/allowed.pl',
-        "                setarg/3,               % checked terms must not change\n"-
+        "                setarg/3,               % checked terms must\c
+         \snot change\n"-
         "").
 promise(only_services_of_a_place_are_called, guard,
         'prolog/typhon/options/guard.pl',
@@ -124,7 +126,8 @@ promise(what_runs_is_a_copy, guard_escapes,
         'prolog/typhon/options/guard/guard_bodies.pl',
         "guard_construct(parts(Parts0, Goal, Parts), _, Own, Goal) :-\n\c
          \s   maplist(guard_part(Own), Parts0, Parts)."-
-        "guard_construct(parts(Parts0, Goal1, Parts), Goal0, Own, Goal) :-\n\c
+        "guard_construct(parts(Parts0, Goal1, Parts), Goal0, Own, Goal)\c
+         \s:-\n\c
          \s   maplist(guard_part(Own), Parts0, Parts),\n\c
          \s   ( Parts == Parts0 -> Goal = Goal0 ; Goal = Goal1 ).").
 promise(nothing_is_loaded_before_admission, imports,
@@ -321,7 +324,8 @@ promise(right_is_needed_where_the_agent_is, rights,
          \s   ->  scope_hosts(some, Hosts)\n").
 promise(undeclared_terms_are_refused, kinds,
         'prolog/typhon/kernel/wire/kinds.pl',
-        "    ;   ignore(peer_permitted(undeclared(Kind), all, Term, Peer)),\n\c
+        "    ;   ignore(peer_permitted(undeclared(Kind), all, Term,\c
+         \sPeer)),\n\c
          \s       Verdict = undeclared\n"-
         "    ;   peer_permitted(undeclared(Kind), all, Term, Peer)\n\c
          \s   ->  Verdict = ok\n\c
@@ -358,7 +362,8 @@ promise(orders_and_goals_are_audited, rights,
 promise(audit_has_no_control_characters, rights,
         'prolog/typhon/options/access.pl',
         "        write_portable(Out, Entry,\n\c
-         \s                      [ignore_ops(true), fullstop(true), nl(true)]),"-
+         \s                      [ignore_ops(true), fullstop(true),\c
+         \snl(true)]),"-
         "        format(Out, '~q.~n', [Entry]),").
 promise(audit_is_private, rights,
         'prolog/typhon/options/access.pl',

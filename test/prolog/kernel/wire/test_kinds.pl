@@ -56,8 +56,10 @@ test(declared_terms_are_accepted, [forall(accepted(F, K, T)), Verdict == ok]) :-
     asking([watch,orders,messages,agents,remote,parent],
            arrival_verdict(F, K, T, peer, Verdict), _).
 test(other_terms_are_not_declared,
-     [forall(undeclared(F, K, T)), Verdict-Asked == undeclared-[undeclared(K)-all]]) :-
-    asking([watch,undeclared(K)], arrival_verdict(F, K, T, peer, Verdict), Asked).
+     [forall(undeclared(F, K, T)),
+      Verdict-Asked == undeclared-[undeclared(K)-all]]) :-
+    asking([watch,undeclared(K)], arrival_verdict(F, K, T, peer, Verdict),
+           Asked).
 test(terms_need_their_right_on_their_hosts,
      [ forall(needs(F, K, T, Right, Scope)),
        [Without,With]-Asked == [refused(Right),ok]-[Right-Scope] ]) :-
@@ -79,7 +81,8 @@ test(each_right_is_one_of_the_documented, Rights ==
      [agents,asked,gate,log,messages,none,orders,parent,remote,watch]) :-
     findall(R, arrives(_, _, _, R, _, _), Rights0),
     sort(Rights0, Rights).
-test(terms_without_a_right_are_few, Free == [ hand-hop, post-again, post-channel,
+test(terms_without_a_right_are_few,
+     Free == [ hand-hop, post-again, post-channel,
      post-had, post-whereabouts, request-agent, request-alive, request-arrived,
      request-events, request-hop, request-of_yours, request-traced,
      request-unwatch ]) :-

@@ -40,7 +40,8 @@ test(without_rules_the_secret_of_the_process_gives_all_rights,
                    -[agents,messages,orders,watch]) :-
     with_hosts([g], ( has(cookie, g, All), has(certificate(x), g, Others) )).
 test(rules_give_the_rights_of_the_first_that_matches, Rights ==
-     [ [agents,messages,orders,remote,watch,log], [agents,log], [watch], [] ]) :-
+     [ [agents,messages,orders,remote,watch,log], [agents,log], [watch],
+       [] ]) :-
     with_hosts([g-[peer([ cookie-all, certificate(lab)-[log,agents],
                           certificate(x)-[watch], certificate(x)-all ])]],
                findall(Rs, ( member(P, [ cookie, certificate(lab),
@@ -48,7 +49,8 @@ test(rules_give_the_rights_of_the_first_that_matches, Rights ==
                              has(P, g, Rs) ), Rights)).
 test(rule_of_all_certificates_matches_no_cookie, Rights == [[],[watch]]) :-
     with_hosts([g-[peer([certificate(_)-[watch]])]],
-               findall(Rs, ( member(P, [cookie,certificate(x)]), has(P, g, Rs) ),
+               findall(Rs,
+                       ( member(P, [cookie,certificate(x)]), has(P, g, Rs) ),
                        Rights)).
 test(rights_are_needed_on_the_hosts_of_the_scope,
      Answers == [no,yes,no,yes,yes,no,no]) :-
@@ -142,14 +144,16 @@ noted(Goal, Whats) :-
 
 test(refusals_and_orders_are_lines,
      Entries == [ cookie-refused(watch), cookie-remote(true),
-                  cookie-order(a, question(a, dispose)), cookie-undeclared(k) ]) :-
+                  cookie-order(a, question(a, dispose)),
+                  cookie-undeclared(k) ]) :-
     audit([peer([cookie-[remote,orders]])],
           ( endpoint_address(Me),
             ( typhon_kinds:peer_permitted(watch, host(g), x, Me) -> true
             ; true ),
             once(typhon_kinds:peer_permitted(remote, host(g), remote(g, true),
                                              Me)),
-            once(typhon_kinds:peer_permitted(orders, host(g), question(a, dispose),
+            once(typhon_kinds:peer_permitted(orders, host(g),
+                                             question(a, dispose),
                                              Me)),
             once(typhon_kinds:peer_permitted(undeclared(k), all, x, Me)) ),
           Entries0),
@@ -170,15 +174,18 @@ test(large_entries_are_abridged, Sizes == [small,small,small]) :-
                  format(string(Text), "~q", [Brief]),
                  string_length(Text, N),
                  ( N < 2000 -> S = small ; S = N ) ), Sizes).
-test(short_entries_are_kept, [forall(member(T, [ refused(watch), order(a, f(X, X)),
-                                                 "text", 'it''s' ])), B =@= T]) :-
+test(short_entries_are_kept,
+     [ forall(member(T, [refused(watch), order(a, f(X, X)), "text", 'it''s'])),
+       B =@= T ]) :-
     typhon_access:brief(T, B).
 test(entries_of_less_than_two_thousand_characters_are_kept, Kept == [yes,no]) :-
     findall(K, ( member(N, [1 999,2 000]), atom_of(N, A),
                  ( typhon_access:brief(A, A) -> K = yes ; K = no ) ), Kept).
-test(text_of_peers_stays_on_its_line, Whats == [undeclared('a\nb\e[2J\u202Ec')]) :-
+test(text_of_peers_stays_on_its_line,
+     Whats == [undeclared('a\nb\e[2J\u202Ec')]) :-
     noted(( endpoint_address(Me),
-            once(typhon_kinds:peer_permitted(undeclared('a\nb\e[2J\u202Ec'), all,
+            once(typhon_kinds:peer_permitted(undeclared('a\nb\e[2J\u202Ec'),
+                                             all,
                                              x, Me)) ), Whats).
 
 test(entries_of_peers_are_short, [true(Length < 1000)]) :-
@@ -204,7 +211,8 @@ audit_mode(Mode, Dir) :-
     directory_file_path(Dir, audit, File),
     with_hosts([g-[audit(File)]],
                ( endpoint_address(Me),
-                 once(typhon_kinds:peer_permitted(undeclared(k), all, x, Me)) )),
+                 once(typhon_kinds:peer_permitted(undeclared(k), all, x,
+                                                  Me)) )),
     format(atom(Command), 'ls -l ~w', [File]),
     setup_call_cleanup(open(pipe(Command), read, In), read_string(In, _, Line),
                        close(In)),

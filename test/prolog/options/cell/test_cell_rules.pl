@@ -255,7 +255,8 @@ test(all_parts_are_charged, Count == 4) :-
                  sub_atom(N, 0, _, _, f10) ), Ns),
     length(Ns, Count).
 test(declared_predicates_are_charged, Names == [f201,f202]) :-
-    functors_charged(declared, "request(1,create(c([/(f201,1),/(f202,2)]),x,y)).", _),
+    functors_charged(declared,
+                     "request(1,create(c([/(f201,1),/(f202,2)]),x,y)).", _),
     findall(N, ( typhon_cell_functors:charged(N, A, declared), A > 0,
                  sub_atom(N, 0, _, _, f20) ), Ns),
     sort(Ns, Names).
@@ -270,7 +271,8 @@ test(text_that_is_no_term_is_charged, [true(Count >= 2)]) :-
 
 charged(Owner, From, To, Result) :-
     numlist(From, To, Ns),
-    findall(Part, ( member(N, Ns), format(string(Part), "~w_~d(x)", [Owner,N]) ),
+    findall(Part, ( member(N, Ns),
+                    format(string(Part), "~w_~d(x)", [Owner,N]) ),
             Parts),
     atomic_list_concat(Parts, ',', List),
     format(string(Text), "[~w].", [List]),
@@ -388,10 +390,10 @@ test(last_that_was_sent_is_known, Values == [2]) :-
 :- begin_tests(cell_keys).
 
 test(owners_policies_and_hosts_have_cells_of_their_own, Count == 5) :-
-    findall(Key, ( member(k(Kind, H, P, O), [ k(owner, h, p, a), k(owner, h, p, b),
-                                              k(owner, h, q, a), k(owner, g, p, a),
-                                              k(host, h, p, a), k(host, h, p, b) ]),
-                   typhon_gatekeeper:key(Kind, P, agent(i, H, m, x, l), O, Key) ),
+    findall(Key,
+            ( member(Kind-H-P-O, [ owner-h-p-a, owner-h-p-b, owner-h-q-a,
+                                   owner-g-p-a, host-h-p-a, host-h-p-b ]),
+              typhon_gatekeeper:key(Kind, P, agent(i, H, m, x, l), O, Key) ),
             Keys),
     sort(Keys, Set),
     length(Set, Count).

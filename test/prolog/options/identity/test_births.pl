@@ -128,7 +128,8 @@ test(agent_without_papers_is_asked_for_them, Verdicts ==
      [need_program,refused(identity)]) :-
     findall(V, ( member(P, [known,papers(x, y)]),
                  typhon_birth:unproved(P, V) ), Verdicts).
-test(ids_name_their_owner, Owners == [alpha,'a-b','a.b','a b',none,none,none]) :-
+test(ids_name_their_owner,
+     Owners == [alpha,'a-b','a.b','a b',none,none,none]) :-
     findall(O, ( member(Id, [ 'x.abc-alpha.0@g@h:1', 'x.abc-a-b.0@g@h:1',
                               'x.abc-a!2e!b.0@g@h:1', 'x.abc-a!20!b.1@g@h:1',
                               'x.abc.0@g@h:1', 'x-alpha.abc.0@g@h:1', x ]),

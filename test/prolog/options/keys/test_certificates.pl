@@ -167,7 +167,8 @@ test(names_and_keys_are_checked,
     keys(alpha, Keys),
     directory_file_path(Dir, alpha, Keys),
     keys_issue(Kind, Name, 30, Dir).
-test(authority_is_not_made_again, error(permission_error(create, directory, _))) :-
+test(authority_is_not_made_again,
+     error(permission_error(create, directory, _))) :-
     keys(alpha, Keys),
     directory_file_path(Dir, alpha, Keys),
     keys_init(Dir).

@@ -10,7 +10,7 @@
 :- use_module(library(typhon/options/quotas/quota_table),
               [quota/3, quota_shared/4, quotas_drop/1, quotas_put/3]).
 
-/** <module> Each quota is exact: at its bound an act is allowed, one more is not
+/** <module> Each quota is exact: at its bound an act is allowed, not beyond
 
 Acts are counted for agents that are only on record: `a1` and `a2` of the owner
 `a`, and `b` of the owner `b`, on the host `h`.
@@ -70,11 +70,13 @@ test(act_beyond_the_quota_of_an_agent_is_refused,
     quota_of(agent, What, 3, Quota),
     with_quotas([Quota], acts([a1,a1,a1,a1,a2], Act, Results)).
 test(act_beyond_the_quota_of_an_owner_is_refused,
-     [forall(act(What, Act)), Results == [ok,ok,ok,over(What),over(What),ok]]) :-
+     [forall(act(What, Act)),
+      Results == [ok,ok,ok,over(What),over(What),ok]]) :-
     quota_of(owner, What, 3, Quota),
     with_quotas([Quota], acts([a1,a2,a1,a2,a1,b], Act, Results)).
 test(act_beyond_the_quota_of_a_host_is_refused_to_the_greatest_user,
-     [forall(act(What, Act)), Results == [ok,ok,ok,ok,over(What),over(What)]]) :-
+     [forall(act(What, Act)),
+      Results == [ok,ok,ok,ok,over(What),over(What)]]) :-
     quota_of(host, What, 3, Quota),
     with_quotas([Quota], acts([a1,a2,a1,b,a2,a1], Act, Results)).
 test(host_ends_owners_that_act_equally_often,
@@ -248,7 +250,8 @@ test(facts_that_were_taken_do_not_count, Results == [ok,ok,over(tuples),ok]) :-
     Results = [R1,R2,R3,R].
 test(clones_of_an_owner_and_of_a_host,
      [forall(member(Quota-Expected,
-                    [ owner(clones(2))-[ok,ok], owner(clones(1))-[over(clones),ok],
+                    [ owner(clones(2))-[ok,ok],
+                      owner(clones(1))-[over(clones),ok],
                       host(clones(3))-[ok,ok],
                       host(clones(2))-[over(clones),over(clones)] ])),
       Results == Expected]) :-
@@ -260,7 +263,7 @@ test(clones_of_a_family, Results == [[ok,ok,over(clones)],[over(clones)]]) :-
     Results = [R1,R2].
 test(payloads_of_an_agent, Results == [ok,over(payloads)]) :-
     with_hosts([g-[quota([payloads(1)])]],
-               findall(R, ( member(Ps, [[],[clauses([ (:- payload(p, [provides([q/1])])), q(1) ])]]),
+               findall(R, ( payload(Ps),
                             create([on_message(_, _)], A,
                                    [host(g), payloads(Ps)]),
                             result(typhon_usage:acts(g, A, attach), R) ),
@@ -307,6 +310,9 @@ test(stack_of_a_turn, Acts = [none,stop_in(_, a1, stack)]) :-
         ( thread_send_message(Thread, go), thread_join(Thread) )).
 
 :- end_tests(quotas_of_amounts).
+
+payload([]).
+payload([clauses([(:- payload(p, [provides([q/1])])), q(1)])]).
 
 %   family(+N, -Agent): N more agents of one program are on the host g.
 
@@ -386,7 +392,8 @@ test(there_are_the_documented_quotas, Given == Documented) :-
     sort(Documented0, Documented).
 test(quota_that_is_none_is_an_error,
      [forall(member(Quota, [ x, messages(0), messages(-1), calls(p, 1),
-                             owner(x), owner(owner(messages(1))), messages(1, 2),
+                             owner(x), owner(owner(messages(1))),
+                             messages(1, 2),
                              other(messages(1)) ])),
       error(domain_error(quota, Quota))]) :-
     quotas_put(h, [Quota], _).

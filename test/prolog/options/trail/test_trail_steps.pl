@@ -117,7 +117,8 @@ forged([ alpha-handed('b@beta:1'), beta-hops(2), beta-received('b@beta:1'),
          beta-entered(r) ], 1, unaccounted(alpha)).
 forged([ alpha-handed('b@beta:1'), gamma-received('c@gamma:1'),
          gamma-entered(r) ], 1, unaccounted(alpha)).
-forged([ alpha-handed('b@beta:1'), beta-received('b@beta:1'), alice-entered(r) ],
+forged([ alpha-handed('b@beta:1'), beta-received('b@beta:1'),
+         alice-entered(r) ],
        1, unaccounted(alpha)).
 forged([ alpha-handed('b@beta:1'), beta-id('y.abc-alpha.0@alpha@127.0.0.1:9') ],
        0, unaccounted(nobody)).
@@ -149,7 +150,8 @@ test(host_signs_nothing_for_the_host_before,
     trail([ alpha-handed('b@beta:1'), beta-received('b@beta:1'),
             gamma-received('c@gamma:1'), gamma-entered(s) ], Signed, Verdict).
 test(links_that_are_taken_away_at_the_end_are_missed,
-     Verdicts == [unaccounted(gamma),unaccounted(nobody),unaccounted(nobody)]) :-
+     Verdicts == [unaccounted(gamma),unaccounted(nobody),
+                  unaccounted(nobody)]) :-
     honest(Steps),
     raw(Steps, Id, '$trail'(at(N, M, K, Hex, H), Chain, Pems, P)),
     N1 is N+1,
@@ -217,9 +219,11 @@ test(host_without_trails_adds_no_step_but_signs_what_it_received,
                           ), Kept)).
 test(process_without_keys_adds_no_step, State == state([], [s(1)])) :-
     id(Id),
-    typhon_trail:trail_link(handed(x), of(h, Id, hash, 1), state([], [s(1)]), [],
+    typhon_trail:trail_link(handed(x), of(h, Id, hash, 1), state([], [s(1)]),
+                            [],
                             State).
-test(process_without_keys_verifies_nothing, error(existence_error(keys, here))) :-
+test(process_without_keys_verifies_nothing,
+     error(existence_error(keys, here))) :-
     id(Id),
     typhon_trail_verified:trail_verified(Id, x, _).
 test(trail_that_cannot_be_continued_stays,

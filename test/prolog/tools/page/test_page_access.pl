@@ -28,7 +28,8 @@ test(no_other_text_is_the_token, Accepted == ['0f0f']) :-
 test(each_difference_counts, Accepted == []) :-
     findall(G, ( between(1, 4, I), atom_codes(abcd, Codes),
                  nth1(I, Codes, C0), C is C0 xor 1,
-                 findall(X, ( nth1(J, Codes, X0), ( I == J -> X = C ; X = X0 ) ),
+                 findall(X,
+                         ( nth1(J, Codes, X0), ( I == J -> X = C ; X = X0 ) ),
                          Changed),
                  atom_codes(G, Changed), token_right(G, abcd) ), Accepted).
 
@@ -37,10 +38,12 @@ test(each_difference_counts, Accepted == []) :-
 test(differences_are_not_summed_away, [fail]) :-
     token_right(badc, abcd).
 test(token_is_in_the_path_the_query_or_the_authorization,
-     Rests == [[''],[feed],[a,b],[],[feed],[metrics],no,no,no,no,no,no,no,no]) :-
+     Rests == [[''],[feed],[a,b],[],[feed],[metrics],no,no,no,no,no,no,no,
+               no]) :-
     setup_call_cleanup(
         assertz(typhon_page_server:serving(1, tok, false), Ref),
-        findall(Rest, ( request(Parts, Request), admitted(Parts, Request, Rest) ),
+        findall(Rest, ( request(Parts, Request),
+                        admitted(Parts, Request, Rest) ),
                 Rests),
         erase(Ref)).
 
@@ -139,7 +142,8 @@ test(all_files_of_the_folder_have_a_type, Without == []) :-
     www(Dir),
     directory_files(Dir, Files),
     findall(F, ( member(F, Files), \+ sub_atom(F, 0, _, _, '.'),
-                 file_name_extension(_, Ext, F), memberchk(Ext, [html,js,css,svg]),
+                 file_name_extension(_, Ext, F),
+                 memberchk(Ext, [html,js,css,svg]),
                  \+ page_file([F], _, _) ), Without).
 
 %   The files exist, in the folder or beside it.
@@ -169,7 +173,8 @@ served_from(Served, Tmp) :-
                                     [plain], ['sub/b.html'], [sub,'b.html'],
                                     ['../c.html'], ['..','c.html'],
                                     ['d\\e.html'], ['a.html\x00\.html'],
-                                    ['missing.html'], [sub], [], ['.'], ['..'] ]),
+                                    ['missing.html'], [sub], [], ['.'],
+                                    ['..'] ]),
                     page_file(Names, _, _) ),
                   Served) ),
         erase(Ref)).
