@@ -131,10 +131,12 @@ promise(what_runs_is_a_copy, guard_escapes,
          \s   maplist(guard_part(Own), Parts0, Parts),\n\c
          \s   ( Parts == Parts0 -> Goal = Goal0 ; Goal = Goal1 ).").
 promise(nothing_is_loaded_before_admission, imports,
-        'prolog/typhon/options/guard.pl',
-        "check_entrant(from(_, Sent, _), _, Policy) :-\n\c
-         \s   check_sent(Policy, Sent).\n"-
-        "check_entrant(from(_, _, _), _, _).\n").
+        'prolog/typhon/kernel/program/libraries.pl',
+        "file_export(File, Export) :-\n\c
+         \s   (   module_property(Module, file(File))\n"-
+        "file_export(File, Export) :-\n\c
+         \s   use_module(File, []),\n\c
+         \s   (   module_property(Module, file(File))\n").
 promise(cells_need_a_policy, cell_hosts,
         'prolog/typhon/options/cell/cell_hosts.pl',
         "    ;   memberchk(cell(Kind), Options),\n\c
