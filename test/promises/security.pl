@@ -263,7 +263,7 @@ promise(tuples_are_bounded, quota_bounds,
 promise(mailboxes_are_bounded, quota_bounds,
         'prolog/typhon/options/quotas/quota_agents.pl',
         "    Space is max(0, integer(Most)-There),"-
-        "    Space is max(1, integer(Most)-There),").
+        "    Space is max(0, integer(Most)+1-There),").
 promise(lifetime_is_bounded, quotas,
         'prolog/typhon/options/quotas/quota_agents.pl',
         "    Until is Now+Seconds."-
@@ -298,12 +298,11 @@ promise(owners_share_a_quota, quota_bounds,
          too_often").
 promise(no_agent_ends_for_what_others_use, quota_bounds,
         'prolog/typhon/options/quotas/usage.pl',
-        "    \\+ ( shared(Host, What, Other, _, More),\n\c
+        "    All > Most,\n\c
+         \s   \\+ ( shared(Host, What, Other, _, More),\n\c
          \s        Other \\== all,\n\c
          \s        More > Count )."-
-        "    \\+ ( shared(Host, What, Other, _, More),\n\c
-         \s        Other \\== all,\n\c
-         \s        More > 2*Count ).").
+        "    All > Most.").
 promise(agent_without_space_is_refused, quota_bounds,
         'prolog/typhon/options/quotas/quota_agents.pl',
         "    brought(From, Entrant, Count),\n\c
@@ -366,7 +365,7 @@ promise(audit_has_no_control_characters, rights,
         "        write_portable(Out, Entry,\n\c
          \s                      [ignore_ops(true), fullstop(true),\c
          \snl(true)]),"-
-        "        format(Out, '~q.~n', [Entry]),").
+        "        format(Out, '~w.~n', [Entry]),").
 promise(audit_is_private, rights,
         'prolog/typhon/options/access.pl',
         "        private_open(File, append, Out, [encoding(utf8)]),"-
