@@ -17,11 +17,6 @@ promise(no_rule_allows_a_construct, guard_rules,
          \s   refuse(Goal)."-
         "guard_construct(refused, Goal, own(_, Policy), Goal) :-\n\c
          \s   ( allowed(Policy, Goal, _) -> true ; refuse(Goal) ).").
-promise(phrase_calls_non_terminals_only, guard,
-        'prolog/typhon/options/guard/guard_bodies.pl',
-        "    definable(NT),\n\c
-         \s   NT \\= {_},\n"-
-        "").
 promise(only_named_payloads_are_attached, guard_rules,
         'prolog/typhon/options/guard/guard_calls.pl',
         "    Spec = payloads(Path),\n\c
