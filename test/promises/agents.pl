@@ -115,9 +115,8 @@ promise(faulty_agent_takes_orders, [faulty, agent],
         "").
 promise(faulty_until_resumed, faulty,
         'prolog/typhon/kernel/lifecycle/effect.pl',
-        "effect('$fault'(Fault), '$fault'(Fault), Goals, Id-_, stop) :-\n\c
-         \s   agent_stays(Id, Goals)."-
-        "effect('$fault'(_), true, Goals, _, go(Goals)).").
+        "    ->  agent_stays(Id, Goals)\n"-
+        "    ->  ignore(agent_end(Id, disposed)), Goals = _\n").
 promise(new_program_applies_to_later_calls, faulty,
         'prolog/typhon/tools/administration/change.pl',
         "    append(PIs, Empty, Declared),\n"-

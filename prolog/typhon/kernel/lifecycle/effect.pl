@@ -16,9 +16,8 @@
 :- use_module('../agent',
               [ agent/5, agent_here/5, agent_name/3, agent_note/3,
                 agent_put/3, agent_ready/2, agent_rest/3, agent_rests/3,
-                agent_status/3,
-                agent_wakes/2, fault_error/2, life_hops/2, life_may_move/2, mail_take/2,
-                with_agent/2 ]).
+                agent_status/3, agent_wakes/2, fault_error/2, life_hops/2,
+                life_may_move/2, mail_take/2, with_agent/2 ]).
 :- use_module('../travel',
               [ hand_over/5, hop/6, hop_at_once/6, hop_clone/6, move_failed/2,
                 move_over/2 ]).
