@@ -4,6 +4,8 @@
             invalid_claims/2,           % +Study, -Problems
             verdicts/3,                 % +Study, +Points, -Verdicts
             holding/3,                  % +Study, +Points, -Numbers
+            log_measures/5,             % +Study, +Given, +Hosts, +Events,
+                                        % -Measures
             first_run/5,                % +Study, +Given, +Seed, +Dir, -Point
             run_measures/2              % +Dir, -Measures
           ]).
@@ -14,7 +16,7 @@
 :- use_module('../../experiments/engine/run', [run_make/4]).
 :- use_module('../../experiments/engine/store', [run_facts/2]).
 :- use_module('../../experiments/engine/studies',
-              [study_call/2, study_load/2]).
+              [study_call/2, study_load/2, study_says/2]).
 :- use_module(library(lists), [member/2, nth1/3]).
 
 /** <module> The studies in experiments/: cases, claims, and small runs
@@ -77,6 +79,22 @@ held(_, _, _, false).
 holding(Study, Points, Numbers) :-
     verdicts(Study, Points, Verdicts),
     findall(N, nth1(N, Verdicts, _-true), Numbers).
+
+%!  log_measures(+Study, +Given, +Hosts, +Events, -Measures:list(pair)) is det.
+%
+%   Measures are Name-Value: those of the first case with parameters Given,
+%   if its network of Hosts has logged Events.
+
+log_measures(Study, Given, Hosts, Events, Measures) :-
+    study_cases(Study, Given, [Case|_]),
+    Log = log{case:Case.put(seed, 1), hosts:Hosts, events:Events},
+    (   study_says(Study, view/2)
+    ->  once(study_call(Study, view(Log, View)))
+    ;   View = Log
+    ),
+    findall(Name-Value, study_call(Study, measure(Name, View, Value)),
+            Measures0),
+    sort(Measures0, Measures).
 
 %!  first_run(+Study, +Given, +Seed, +Dir, -Point) is det.
 %
