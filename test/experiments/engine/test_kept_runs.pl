@@ -162,6 +162,12 @@ directories(Bases, Root, Runs) :-
               file_base_name(Directory, Base) ),
             Bases).
 
+ends_with_hash(Root, [Run|_]) :-
+    Run = run(Study, _, _),
+    run_directory(Root, Run, Directory),
+    sources_hash(Study, Hash),
+    assertion(atom_concat(_, Hash, Directory)).
+
 part(Root, Run, Directory, Part) :-
     Run = run(Study, Case, Seed),
     run_directory(Root, Run, Directory),
@@ -257,6 +263,8 @@ test(each_run_has_a_directory, Count == 4) :-
     length(Distinct, Count),
     assertion(once(( member(Base, Bases),
                      sub_atom(Base, 0, _, _, 'a=x:y,seed=1-') ))).
+test(name_of_a_run_ends_with_the_hash_of_its_sources) :-
+    with_runs(ends_with_hash).
 test(long_names_are_cut, true(Length < 150)) :-
     computing(Lines),
     with_tmp_dir(long(Lines, Length)).

@@ -5,10 +5,12 @@
 :- use_module('../../lib/common').
 :- use_module('../../lib/study_files', [study_messages/2, with_study/2]).
 :- use_module('../../../experiments/engine/cases', [study_cases/3]).
+:- use_module('../../../experiments/engine/cross_check', [cross_check/4]).
 :- use_module('../../../experiments/engine/numbers').
 :- use_module('../../../experiments/engine/outcome').
 :- use_module('../../../experiments/engine/report').
 :- use_module('../../../experiments/engine/tables', [outcome_save/4]).
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex), [directory_file_path/3]).
@@ -209,13 +211,46 @@ printed(Values, Text) :-
 
 saved(Name, Text) :-
     three(Values),
+    saved(Values, Name, Text).
+
+saved(Values, Name, Text) :-
     quietly_outcome_of(Values, Outcome),
     with_tmp_dir(saved(Outcome, Name, Text)).
+
+%   row_of(+Table, +Begin, -Numbers): Numbers are the other cells of the row of
+%   Table that begins with Begin, of four runs of each case.
+
+row_of(Table, Begin, Numbers) :-
+    saved([ values(1, 10, 20), values(2, 12, 30), values(3, 14, 40),
+            values(4, 15, 13) ], Table, Text),
+    split_string(Text, "\n", "\r", Lines),
+    member(Line, Lines),
+    string_concat(Begin, Rest, Line),
+    !,
+    split_string(Rest, ",", "", Cells),
+    maplist([Cell, Number]>>number_string(Number, Cell), Cells, Numbers).
+
+close_to(X, Y) :-
+    abs(X - Y) < 1.0e-4.
 
 saved(Outcome, Name, Text, Dir) :-
     outcome_save(Outcome.study, Outcome, Outcome.runs, Dir),
     directory_file_path(Dir, Name, File),
     read_file_to_string(File, Text, []).
+
+:- begin_tests(cross_check).
+
+test(real_run_beside_the_virtual_ones,
+     [ forall(member(Real-Verdict, [ 1-inside, 3-inside, 2.5-inside,
+                                     0.9-below, 3.1-above ])),
+       Found == Verdict ]) :-
+    cross_check([ms{m:1, o:x}, ms{m:3}, ms{m:2}], [ms{m:Real}], [m, o],
+                [[m, _, _, Found]]).
+test(median_of_the_real_runs, Found == inside) :-
+    cross_check([ms{m:1}, ms{m:2}], [ms{m:2}, ms{m:9}, ms{m:0}], [m],
+                [[m, _, _, Found]]).
+
+:- end_tests(cross_check).
 
 :- begin_tests(report).
 
@@ -227,6 +262,12 @@ test(held, [ forall(member(H/N/S-T, [ 0/0/3-'not known', 1/1/1-held,
                                       0/1/3-'held in 0 of 3, 2 not known' ])),
              Text == T ]) :-
     held_text(H, N, S, Text).
+test(medians_that_differ,
+     [ forall(member(H/N/M-T, [ 2/3/false-' (not of the medians)',
+                                0/3/true-' (but of the medians)', 3/3/true-'',
+                                0/3/false-'', 2/3/unknown-'', 1/1/false-'' ])),
+       Text == T ]) :-
+    medians_text(H, N, M, Text).
 test(table, Text == "  a    bb  c\n  1  2.50  some\n  2     3  x\n") :-
     with_output_to(string(Text),
                    print_table(current_output, [a, bb, c],
@@ -247,6 +288,17 @@ test(runs, Text == "seed,a,m\r\n1,1,10\r\n1,2,20\r\n2,1,12\r\n2,2,30\r\n\c
 test(claims, nondet) :-
     saved('claims.csv', Text),
     sub_string(Text, _, _, _, "rises,2,3,true,m: 12 20,[]").
+test(summary, true(maplist(close_to, Numbers,
+                           [ 4, 12.75, 2.21736, 9.22167, 16.27833, 13, 10,
+                             15 ]))) :-
+    row_of('summary.csv', "1,m,", Numbers).
+test(pair_of_cases_in_tests,                % 14 and 15 are above 13
+     true(maplist(close_to, Numbers,
+                  [4, 4, 2, 0.125, 0.05714, 0.05714]))) :-
+    row_of('tests.csv', "rises,m,a=1,a=2,", Numbers).
+test(runs_for_which_a_claim_is_unknown, nondet) :-
+    saved([values(1, 10, 20), values(2, 12, missing)], 'claims.csv', Text),
+    sub_string(Text, _, _, _, "rises,1,1,unknown,m: 11 20,[],1\r").
 test(parameters, Text == "parameter,value,why\r\na,\"[1,2]\",varied\r\n\c
 c,3,tuned after results were seen: it fits\r\n") :-
     saved('parameters.csv', Text).

@@ -67,6 +67,15 @@ test(random_sample_can_be_continued, nondet) :-
 test(parameters_are_independent, Alone == Together) :-
     drawn([a-uniform(0, 1)], latin_hypercube(5), a, Alone),
     drawn([b-[x, y], a-uniform(0, 1)], latin_hypercube(5), a, Together).
+test(parameters_of_one_range_have_other_values, true(A \== B)) :-
+    Ranges = [a-uniform(0, 1), b-uniform(0, 1)],
+    drawn(Ranges, random(5), a, A),
+    drawn(Ranges, random(5), b, B).
+test(design_has_as_many_points, [forall(member(D, [random(7),
+                                                   latin_hypercube(7)])),
+                                 Count == 7]) :-
+    drawn([a-uniform(0, 1)], D, a, Values),
+    length(Values, Count).
 test(other_seed_draws_other_values, true(A \== B)) :-
     drawn([a-uniform(0, 1)], random(5), a, A),
     drawn([a-uniform(0, 1)], random(5, 2), a, B).

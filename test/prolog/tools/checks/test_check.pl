@@ -167,6 +167,12 @@ test(another_clause, L == [lost_choice(clause, receive/2, receive/2)]) :-
 test(more_general_clause,
      L == [lost_choice(clause, move/1, take/1)]) :-
     loses('q(f(X)) :- move(X), take(gold). q(_).', L).
+test(chosen_clause_before_fail,
+     L == [lost_choice(clause, move/1, fail/0)]) :-
+    loses('q(X) :- X > 3, move(a), fail. q(_) :- log(x).', L).
+test(chosen_side_of_a_disjunction_before_fail,
+     L == [lost_choice((;)/2, move/1, fail/0)]) :-
+    loses('p(X) :- ( X > 3, move(a), fail ; log(x) ).', L).
 test(other_side_of_a_disjunction,
      L == [lost_choice((;)/2, receive/2, receive/2)]) :-
     loses('p :- ( receive(_-a, 5) ; log(late) ).', L).
