@@ -47,6 +47,8 @@ fake_host:hops(3).
 fake_host:host_load(1).
 fake_host:now(Time) :- fake_host:time(Time).
 fake_host:next_host(_, next).
+fake_host:emit(Problem, _)  :- assertz(fake_host:did(emit(Problem))).
+fake_host:withdraw(Problem) :- assertz(fake_host:did(withdraw(Problem))).
 fake_host:dispose :- throw(disposed).
 
 fake_host:send(Id, _) :-
