@@ -175,21 +175,29 @@ example('sieve/beyond_programs', [round-10], [h], Events,
                 *           CHAPTER 4          *
                 *******************************/
 
-%   In a maze of 3 by 3; a goes forth and back once, b near the diagonal.
+%   In a maze of 3 by 3; a goes forth and back once, b near the diagonal, c
+%   through the cells of a.
 
 learning(Events) :-
     A = [ forward, backward, forward, forward, turn_left, forward, forward ],
     B = [ turn_left, forward, turn_right, forward, turn_left, forward,
           turn_right, forward ],
+    C = [forward, forward, turn_left, forward, forward],
     entries([ 10:h1:a:executed(1, 0, 1, unreached),
               11:h2:b:executed(1, 0, 2, unreached), 12:h3:a:shared(b, 2),
+              13:h4:c:executed(1, 0, 2, unreached),
               15:h3:a:executed(2, 4, 3, unreached), 16:h3:b:shared(a, 1),
+              18:h4:c:executed(2, 6, 2, reached),
               20:h3:b:executed(2, 2, 3, reached), 22:h3:a:shared(b, 1),
               25:h4:a:executed(3, 6, 4, reached),
-              30:h4:b:converged(2, 20, B), 40:h5:a:converged(3, 12, A) ],
+              30:h4:a:converged(3, 12, A), 35:h4:c:converged(2, 5, C),
+              40:h5:b:converged(2, 20, B) ],
             Events).
 
-learnt([executions-2.5, total-5, sharing-0.6, duration-30, hops-16]).
+learnt([executions-Mean, total-7, sharing-Sharing, duration-30, hops-Hops]) :-
+    Mean is 7/3,
+    Sharing is 3/7,
+    Hops is 37/3.
 
 %   30 parts, of which those with the numbers 2, 6 and 12, or 3, 9 and 18, have
 %   an event: the sum of squares of 30 numbers around their mean is 2247.5.
@@ -205,14 +213,16 @@ learnt(Own, Measures) :-
 example('learning/figure_4_7', [size-2, network-50, sharing-true], [h],
         Events, Measures) :-
     learning(Events),
-    Spread is 1/3,
-    Aside is (5/7 + 2/5)/2/sqrt(2),
-    learnt([ agents-2, distinct-2, overlap-0.25, spread-Spread, aside-Aside,
-             nearer-(60..74), detour-1 ], Measures).
+    Spread is sqrt(8/3)/4,
+    Aside is (5/7 + 2/5 + 4/5)/3/sqrt(2),
+    Detour is 2/3,
+    learnt([ agents-3, distinct-2, overlap-0.5, spread-Spread, aside-Aside,
+             nearer-(60..74), detour-Detour ], Measures).
 example('learning/figure_4_9', [size-2, network-10], [h], Events, Measures) :-
     learning(Events),
     trends(Trends),
-    learnt([no_obstacle-2.5|Trends], Measures).
+    Mean is 7/3,
+    learnt([no_obstacle-Mean|Trends], Measures).
 example('learning/figure_4_13', [size-2], [h], Events, Measures) :-
     learning(Events),
     trends(Trends),
@@ -455,13 +465,13 @@ example('allocation/beyond_integrated', [length-2], [r1], Events,
 %   r3 replaces r2, which begins task 2 after its loss.
 
 example('allocation/beyond_replacement', [length-2], [r1], Events,
-        [ completed-17, overlaps-2, faulty-0, disorder-0, replaced-1,
+        [ completed-20, overlaps-1, faulty-0, disorder-0, replaced-1,
           catching_up-7, after-1 ]) :-
-    log_of([ main/1/r1/(4-5), main/1/r2/(4-6), main/2/r1/(7-8),
+    log_of([ main/1/r1/(4-5), main/1/r2/(4-6), main/2/r1/(15-20),
              main/2/r2/(8-9), main/1/r3/(11-13), main/2/r3/(14-17) ],
            [ 1:h:x:begun(main), 3:h:x:allocated(main, [r1, r2]),
              6.5:h:x:lost(r2, failed), 10:h:x:allocated(main, [r1, r3]),
-             18:h:x:completed(main) ], Events).
+             21:h:x:completed(main) ], Events).
 
                 /*******************************
                 *       BEYOND THE THESIS      *

@@ -103,6 +103,8 @@ holding(at([k=a], sum(up) =:= 60)).
 holding(rise(up, along(n)) >= 20).
 holding(first(up, along(n)) =< up).
 holding(last(up, along(n)) >= up).
+holding(correlation(up, n) > 0.8).
+holding(at([k=a], correlation(up, -n)) =:= -1).
 holding(at([k=b], rise(up, along(n)) =:= 22)).
 holding(at([k=b], rise(up, along(n))) > at([k=a], rise(up, along(n)))).
 holding(2*n + 8 =< up).
@@ -125,6 +127,8 @@ failing(rises(same, along(n), ends)).
 failing(least(up, k=b)).
 failing(most(up, k=a)).
 failing(least(same, k=a)).
+failing(most(same, k=a)).
+failing(correlation(up, -n) > 0).
 failing(least(bent, k=a)).              % not with n = 2
 failing(at([k=b], rises(bent, along(n)))).
 failing(at([k=a, n=3], up =:= 31)).

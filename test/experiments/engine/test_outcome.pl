@@ -10,7 +10,7 @@
 :- use_module('../../../experiments/engine/outcome').
 :- use_module('../../../experiments/engine/report').
 :- use_module('../../../experiments/engine/tables', [outcome_save/4]).
-:- use_module(library(apply), [maplist/3]).
+:- use_module(library(apply), [exclude/3, maplist/3]).
 :- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex), [directory_file_path/3]).
@@ -233,6 +233,10 @@ row_of(Table, Begin, Numbers) :-
 close_to(X, Y) :-
     abs(X - Y) < 1.0e-4.
 
+shown_of(Names, Shown, Study) :-
+    findall(spread(Name, 1, 1, 1, 1), member(Name, Names), Spreads),
+    shown_measures(Study, [row(case{}, 1, Spreads)], Shown).
+
 saved(Outcome, Name, Text, Dir) :-
     outcome_save(Outcome.study, Outcome, Outcome.runs, Dir),
     directory_file_path(Dir, Name, File),
@@ -282,6 +286,13 @@ test(printed) :-
 test(only_labelled_measures_are_shown) :-
     printed([values(1, 1, 2)], Text),
     assertion(once(sub_string(Text, _, _, _, "  a  runs  m\n"))).
+test(measures_without_a_label_are_not_shown, Shown == [m]) :-
+    toy(Lines),
+    with_study(Lines, shown_of([m, n], Shown)).
+test(all_measures_are_shown_if_none_has_a_label, Shown == [m, n]) :-
+    toy(Lines0),
+    exclude([Line]>>sub_atom(Line, 0, _, _, label), Lines0, Lines),
+    with_study(Lines, shown_of([m, n], Shown)).
 test(runs, Text == "seed,a,m\r\n1,1,10\r\n1,2,20\r\n2,1,12\r\n2,2,30\r\n\c
 3,1,14\r\n3,2,4\r\n") :-
     saved('runs.csv', Text).

@@ -224,6 +224,14 @@ test(same_value_twice, nondet) :-
     sub_string(Result, _, _, _, "measure(m,1)").
 test(two_values, error(study_measures(m, [1, 2]))) :-
     with_lines([ 'measure(m, _, X) :- member(X, [1, 2]).' ], computes(_)).
+test(seed_of_the_run_is_that_of_its_network, nondet) :-
+    with_lines([ 'network(_, ring(3), []).',
+                 'run(Case, Network) :-',
+                 '    typhon:network_property(Network, seed(Seed)),',
+                 '    Seed =:= Case.seed.',
+                 'measure(m, Log, N) :- length(Log.hosts, N).' ],
+               network_alone(Result)),
+    sub_string(Result, _, _, _, "measure(m,3)").
 test(network_without_run, nondet) :-
     with_lines([ 'network(_, ring(3), []).',
                  'measure(m, Log, N) :- length(Log.hosts, N).' ],

@@ -81,6 +81,9 @@ test(overlaps,
      Overlaps == [execution(2, a, 2, 3), execution(3, a, 4, 5)]) :-
     measured(ahead, Es),
     overlaps(Es, Overlaps).
+test(start_with_the_last_one_before_does_not_overlap, Overlaps == []) :-
+    overlaps([ execution(1, a, 0, 1), execution(1, b, 3, 4),
+               execution(2, a, 3, 5), execution(2, b, 9, 10) ], Overlaps).
 test(in_order, OutOfOrder == []) :-
     measured(ahead, Es),
     out_of_order(Es, OutOfOrder).
