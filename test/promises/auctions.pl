@@ -212,8 +212,12 @@ promise(completed_part_counts_for_the_auction, auction_sides,
         "").
 promise(reports_in_any_order, auction_sides,
         'agents/allocation/auctions/awards.pl',
-        "    Last is max(I, J),"-
-        "    Last is J + 0*I,").
+        "becomes(done, _, done) :-\n\c
+         \s   !.\n\c
+         becomes(Before, Phase, After) :-\n\c
+         \s   later_phase(Before, Phase, After)."-
+        "becomes(_, Phase, Phase) :-\n\c
+         \s   later_phase(awarded, Phase, _).").
 promise(each_team_its_own, auction_sides,
         'agents/allocation/auctions/awards.pl',
         "( member(Host-Bids, Bids0), \\+ memberchk(Host-_, Team) ),"-

@@ -162,6 +162,12 @@ directories(Bases, Root, Runs) :-
               file_base_name(Directory, Base) ),
             Bases).
 
+another_parameter(Root, [Run|_]) :-
+    Run = run(Study, Case, Seed),
+    run_directory(Root, Run, Directory),
+    run_directory(Root, run(Study, Case.put(b, 4), Seed), Other),
+    assertion(Directory \== Other).
+
 ends_with_hash(Root, [Run|_]) :-
     Run = run(Study, _, _),
     run_directory(Root, Run, Directory),
@@ -263,6 +269,8 @@ test(each_run_has_a_directory, Count == 4) :-
     length(Distinct, Count),
     assertion(once(( member(Base, Bases),
                      sub_atom(Base, 0, _, _, 'a=x:y,seed=1-') ))).
+test(another_fixed_parameter_is_another_run) :-
+    with_runs(another_parameter).
 test(name_of_a_run_ends_with_the_hash_of_its_sources) :-
     with_runs(ends_with_hash).
 test(long_names_are_cut, true(Length < 150)) :-

@@ -197,6 +197,10 @@ test(several_pairs_are_corrected, Adjusted =:= 2*P) :-
 test(few_seeds_are_not_tested, Comparisons == []) :-
     of_seeds([A, B, C|_]),
     claim_comparisons(user:least(m, a=1), [A, B, C], Comparisons).
+test(greatest_p_is_shown, Text == 'rank tests, 3 pairs of cases: p = 0.200') :-
+    findall(comparison(a, b, m, [], [], 0, Q, Q), member(Q, [0.01, 0.2, 0.1]),
+            Comparisons),
+    evidence_text(Comparisons, Text).
 test(text, Text == 'rank test: p = 0.002') :-
     compared(least(m, a=1), Comparisons),
     evidence_text(Comparisons, Text).
