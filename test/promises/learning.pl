@@ -136,7 +136,7 @@ promise(seed_of_the_trainers, learning,
          \s   ->  typhon_prng"-
         "    (   atom(Seed0), integer(Seed0)\n\c
          \s   ->  typhon_prng").
-promise(trainers_differ, chance,
+promise(trainers_differ, learning,
         'agents/lib/chance.pl',
         "    seed_chance(Name)."-
         "    seed_chance(here), Name = Name.").

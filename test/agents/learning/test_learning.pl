@@ -3,7 +3,7 @@
 :- use_module('../../lib/fake_agent').
 :- use_module(library(plunit)).
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(apply), [include/3]).
+:- use_module(library(apply), [include/3, maplist/3]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(readutil), [read_file_to_terms/3]).
 :- use_module(library(typhon)).
@@ -413,6 +413,8 @@ test(same_seed_same_execution, Again == Once) :-
 test(other_seed_other_execution, true(Other \== Once)) :-
     tried(7, Once),
     tried(8, Other).
+test(trainers_of_two_hosts_differ, true(( Same == A, A \== B ))) :-
+    maplist(tried_at, ['a@x:1', 'b@x:1', 'a@y:2'], [A, B, Same]).
 test(executions_differ, true(Second \== First)) :-
     tried(7, [First, Second|_]).
 
@@ -425,6 +427,12 @@ used_up(Xis) :-
 
 way([ forward, forward, forward, forward, forward, turn_left,
       forward, forward, forward, forward, forward ]).
+
+tried_at(Host, Steps) :-
+    trainer([seed-7]),
+    assertz(fake_host:did(move(Host))),
+    fake_agent:seed_chance_here,
+    trains([], 20, Steps, _).
 
 tried(Seed, Tried) :-
     trainer([seed-Seed]),

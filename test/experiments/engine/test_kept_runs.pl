@@ -162,6 +162,14 @@ directories(Bases, Root, Runs) :-
               file_base_name(Directory, Base) ),
             Bases).
 
+lacks_its_log(Root, [Run|_]) :-
+    part(Root, Run, Directory, Part),
+    run_facts(Part, Facts),
+    result_save(Part, [events(1)|Facts]),
+    part_install(Part, Directory, false),
+    assertion(run_done(Root, false, Run)),
+    assertion(\+ run_done(Root, true, Run)).
+
 another_parameter(Root, [Run|_]) :-
     Run = run(Study, Case, Seed),
     run_directory(Root, Run, Directory),
@@ -269,6 +277,8 @@ test(each_run_has_a_directory, Count == 4) :-
     length(Distinct, Count),
     assertion(once(( member(Base, Bases),
                      sub_atom(Base, 0, _, _, 'a=x:y,seed=1-') ))).
+test(run_that_lacks_its_log_is_done_only_without_logs) :-
+    with_runs(lacks_its_log).
 test(another_fixed_parameter_is_another_run) :-
     with_runs(another_parameter).
 test(name_of_a_run_ends_with_the_hash_of_its_sources) :-
