@@ -116,6 +116,12 @@ test(open_teams, Open == [2]) :-
     findall(Team, open_team([1-[a], 2-[b], 1-[c]], [3, 2, 1], Team, _),
             Open).
 
+test(what_each_robot_executes,
+     [ forall(member(Details-Is, [ []-sleep(5), [duration(2)]-sleep(2),
+                                   [duration(2), goal(dig)]-dig ])),
+       Goal == Is ]) :-
+    task_goal(Details, Goal).
+
 test(step, Trail == [d, c, b, a]) :-
     stepped(d, [c, e], [], [c, b, a], Trail).
 test(step_over_a_removed_link, Trail == [d, c, b, a]) :-

@@ -198,6 +198,13 @@ test(two_sequences_at_once) :-
     histories(slow, 24, Slow),
     executed([1, gate], H1),
     all_same(Slow, H1).
+test(busy_worker_of_a_pool_is_not_doubled, Before == After) :-
+    hosts([A|_]),
+    sequence_start(first, [A], [1-true], [agents(0), pool(crew)], []),
+    wait_until(remote(A, sense(worker(crew, _))), 10),
+    remote(A, ( take(worker(crew, Worker)), host_load(Before) )),
+    sequence_start(second, [A], [1-true], [agents(0), pool(crew)], []),
+    remote(A, ( host_load(After), leave(worker(crew, Worker)) )).
 test(tasks_that_wait_in_a_circle,
      error(domain_error(order_of_tasks, [a:1, a:2, b:1]))) :-
     circle([2-(b:1)], [1-(a:2)], Sequences),
