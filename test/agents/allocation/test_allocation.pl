@@ -483,6 +483,7 @@ test(reservation_is_rewarded) :-       % 1 (1 + 1/2 * 3/3)
     Push = ask(Ref, Need),
     did([send(r, Push), send(r, reserve(Ref, me, Need))]),
     fake_agent:held(here, r, Ref, 1, reserved),
+    \+ fake_agent:sent(message, _),    % the robot is at the same host
     chi(Chi),
     Chi =:= 1.5.
 test(second_reward_is_less) :-          % 1 (1 + 2/2 * 2/3)
@@ -522,6 +523,13 @@ test(no_penalty, [ forall(member(What, [refused(failed), bid(11)])) ]) :-
     fake_agent:negotiate,
     chi(1),
     \+ fake_agent:held(_, _, _, _, _).
+test(expensive_robot_is_not_reserved, Acts == [send(r, Push)]) :-
+    allocator([]),
+    push(Push),
+    answers(1, bid(11)),
+    answers(1, reserved),
+    fake_agent:negotiate,
+    did(Acts).
 test(silent_robot_is_skipped, Time == 20) :-
     allocator([]),
     fake_agent:negotiate,
@@ -601,13 +609,14 @@ test(executing_robots_are_not_released) :-
     fake_agent:back_off,
     fake_agent:held(b, q, x, 1, started),
     fake_agent:trail([here, b, a]).
-test(child_returns, Acts == [ move(b), send(q, release(x)),
-                              move(a), send(p, release(y)),
-                              log(communications(child, 2)) ]) :-
+test(child_returns, Acts-Dies ==
+                    [ move(b), send(q, release(x)),
+                      move(a), send(p, release(y)),
+                      log(communications(child, 2)) ]-true) :-
     allocator([ held(a, p, y, 2, reserved), held(b, q, x, 1, reserved) ]),
     fake_clone(clone(me)),
     fake_neighbours([b, a, c]),
-    catch(fake_agent:deallocate([reserved]), disposed, true),
+    catch(fake_agent:deallocate([reserved]), disposed, Dies = true),
     did(Acts).
 test(child_skips_a_host_that_refuses_it) :-
     allocator([ held(a, p, y, 2, reserved), held(b, q, x, 1, reserved) ]),
