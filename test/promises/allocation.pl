@@ -31,10 +31,10 @@ promise(goal_runs_in_a_clone, allocation,
          \s   dispose.").
 promise(deadline_from_the_start, allocation,
         'agents/allocation/allocator/deadline.pl',
-        "    (   Now >= Until\n\c
-         \s   ->  throw(missed)"-
-        "    (   Now > Until\n\c
-         \s   ->  throw(missed)").
+        "    Until is Now + Seconds,\n\c
+         \s   keep(until(Until))."-
+        "    Until is Seconds + 0*Now,\n\c
+         \s   keep(until(Until)).").
 promise(rest_ends_at_the_deadline, allocation,
         'agents/allocation/allocator/deadline.pl',
         "    Seconds is max(0, min(Seconds0, Until - Now))."-

@@ -663,6 +663,13 @@ test(task_of_a_lost_robot_stays_done) :-
     fake_agent:attend,
     \+ fake_agent:held(_, _, _, _, _),
     fake_agent:achieved(2).
+test(deadline_counts_from_the_start, Until == 27) :-
+    allocator([]),
+    retractall(fake_agent:task(_, _, _)),
+    assertz(fake_agent:task(t, [1-[push]], [deadline(20)])),
+    fake_at(7),
+    fake_agent:prepare,
+    fake_agent:until(Until).
 test(deadline, throws(missed)) :-
     allocator([]),
     retractall(fake_agent:until(_)),
