@@ -244,9 +244,10 @@ test(all_syntax_errors, Lines == [3,5,7]) :-
 test(unterminated_clause, [true(F = [_-syntax_error(_)])]) :-
     found(['p :- "'], F).
 test(creation_reports_all_errors) :-
-    creation_text(['p :- a b.', 'q :- c d.'], Text),
+    creation_text(['p :- a b.', 'q :- c d.', 'r :- e f.'], Text),
     shows(Text, "a.pl:3:7: Syntax error"),
-    shows(Text, "a.pl:4:7: Syntax error").
+    shows(Text, "a.pl:4:7: Syntax error"),
+    shows(Text, "a.pl:5:7: Syntax error").
 test(creation_reports_positions) :-
     creation_text(['p :- forall(s(X), move(X)).', 'q.', 'move(_).'], Text),
     shows(Text, "a.pl:5: No permission"),
