@@ -44,8 +44,8 @@ budget('files of prolog/, all languages', Count, 310) :-
     aggregate_all(count, product_file(_), Count).
 budget('files of wire/', Count, 16) :-
     aggregate_all(count, layer_module(_, 'kernel/wire', _), Count).
-budget('suites that import internal modules', Count, 5) :-
-    aggregate_all(count, imports_internals(_), Count).
+budget('suites that import or call what is internal', Count, 10) :-
+    aggregate_all(count, uses_internals(_), Count).
 budget('pauses of the processes of tests', Count, 20) :-
     inside('test/', Tests),
     aggregate_all(sum(N), ( pauses(File, N), atom_concat(Tests, _, File) ),
@@ -61,16 +61,32 @@ product_file(File) :-
 
 %   A module of a layer, but for its interface, is internal. kernel/base has
 %   no interface: the modules there are tools, which are tested one by one. So
-%   may be modules that hold no state: their exports are functions.
+%   may be modules that hold no state: their exports are functions. What a
+%   module does not export is internal, unless it is a hook.
 
-imports_internals(Suite) :-
+uses_internals(Suite) :-
     inside('test/', Tests),
     tree_file(Suite),
     atom_concat(Tests, _, Suite),
     file_base_name(Suite, Base),
     atom_concat(test_, _, Base),
-    once(( import(Suite, File, _), layer_module(File, Layer, _),
-           Layer \== 'kernel/base', holds_state(File) )).
+    once(( imports_internal(Suite) ; calls_internal(Suite) )).
+
+imports_internal(Suite) :-
+    import(Suite, File, _),
+    layer_module(File, Layer, _),
+    Layer \== 'kernel/base',
+    holds_state(File).
+
+calls_internal(Suite) :-
+    reaches(Suite, Module, Name/Arity),
+    Arity > 0,                          % settings are named like predicates
+    Name \== '[|]',                     % Module:List
+    module_of(File, Module),
+    inside('prolog/', Product),
+    atom_concat(Product, _, File),
+    \+ declares(_, Module:Name/Arity),
+    \+ ( offered(File, all, Name/More), More >= Arity ).
 
 holds_state(File) :-
     member(Name, [ dynamic, thread_local, nb_setval, b_setval, flag, with_mutex,
