@@ -6,6 +6,7 @@
             with_tmp_dir/1,             % :Goal
             shell_script/2,             % +File, +Line
             no_leaks/1,                 % :Goal
+            state_size/2,               % +Module, -Facts
             with_settings/2,            % +Values, :Goal
             wait_until/2,               % :Goal, +Seconds
             with_swipl/5,               % +Args, -Pid, -In, -Out, :Goal
@@ -28,6 +29,7 @@ the whole process, so no other test should run meanwhile.
 */
 
 :- use_module(slowness, [patience/2]).
+:- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(filesex),
               [ chmod/2,
@@ -268,6 +270,17 @@ stat(File, State, Parent) :-
     split_string(Text, ")", "", Parts),
     last(Parts, Rest),
     split_string(Rest, " ", " ", [State, Parent|_]).
+
+%!  state_size(+Module, -Facts:integer) is det.
+%
+%   Facts is the number of facts in the dynamic predicates of Module.
+
+state_size(Module, Facts) :-
+    aggregate_all(sum(N),
+                  ( predicate_property(Module:Head, dynamic),
+                    \+ predicate_property(Module:Head, imported_from(_)),
+                    predicate_property(Module:Head, number_of_clauses(N)) ),
+                  Facts).
 
                 /*******************************
                 *       SEPARATE PROCESSES     *

@@ -137,8 +137,7 @@ test(lapsed_offers_are_removed, true(Count < 300)) :-
                ( forall(between(1, 600, _),
                         ( create([(main :- offer(shop, []))], A, []),
                           joined(A, done) )),
-                 predicate_property(typhon_offers:offer(_, _, _, _, _, _),
-                                    number_of_clauses(Count)) )).
+                 state_size(typhon_offers, Count) )).
 
 :- end_tests(directory).
 

@@ -1,4 +1,5 @@
 :- module(test_guard_escapes, []).
+:- use_module('../../../lib/allowed_goals').
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/fixtures').
 :- use_module(library(plunit)).
@@ -457,8 +458,12 @@ come(with_agent, Hash, Sent) :-
                      =(ok), refused(policy(_))).
 come(by_order, Hash, Sent) :-
     create([on_message(_, _)], A, [host(g)]),
-    catch(typhon_orders:carry_out(change(program(Hash, Sent)), A, _),
-          error(permission_error(call, sandboxed, _), _), true).
+    message_queue_create(Queue),
+    typhon_orders:order_take(A, asked(change(program(Hash, Sent)),
+                                      queue(Queue))),
+    thread_get_message(Queue, error(permission_error(call, sandboxed, _)),
+                       [timeout(30)]),
+    message_queue_destroy(Queue).
 
                 /*******************************
                 *         SHARED TERMS         *
@@ -599,7 +604,7 @@ given(Text, Chars) :- string_chars(Text, Chars).
 %   others, and a variable at one of them.
 
 text_goal(Text, Goal) :-
-    typhon_allowed:free(Goal),
+    allowed_goal(Goal, free),
     functor(Goal, Name, Arity),
     between(1, 5, Arity),
     \+ memberchk(Name, [ move, clone, receive, send, log, leave, leave_new,

@@ -1,4 +1,5 @@
 :- module(test_guard_names, []).
+:- use_module('../../../lib/allowed_goals').
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/compiled_calls').
 :- use_module(library(plunit)).
@@ -20,20 +21,14 @@ list of the policy, be checked when it runs, or lead to no predicate at all.
 %   named(-Name): a name that Prolog may treat in its own way.
 
 named(Name) :-
-    predicate_property(system:Head, defined),
+    nameable(Head),
     functor(Head, Name, _).
 named(Name) :-
     current_op(_, _, system:Name).
 named(Name) :-
-    typhon_allowed:library_head(_, Head),
-    functor(Head, Name, _).
-named(Name) :-
-    typhon_mobile:vocabulary_word(_, Name/_).
-named(Name) :-
     member(Name, [{}, '[|]', dict, '.', call]).
 
 names(Names) :-
-    typhon_allowed:policy_read(guarded),
     findall(Name, ( named(Name), atom(Name) ), Names0),
     sort(Names0, Names).
 
@@ -69,10 +64,10 @@ guarded(written, Goal, Body) :-
         guarded, program(x, [], [], [(main :- Goal)]),
         program(_, _, _, [(main :- Body)])).
 guarded(asserted, Goal, Body) :-
-    typhon_guard_calls:guard_called(own(none, guarded), assertz((p :- Goal)),
-                                    assertz((p :- Body))).
+    typhon_guard_calls:guard_call(guarded, none, assertz((p :- Goal)), [],
+                                  assertz((p :- Body))).
 guarded(called, Goal, Body) :-
-    typhon_guard_calls:guard_called(own(none, guarded), Goal, Body).
+    typhon_guard_calls:guard_call(guarded, none, Goal, [], Body).
 
 %   unguarded(+Body, -Call): the code of Body has Call, which it must not have.
 
@@ -105,7 +100,7 @@ called_part(Body, Part) :-
     callable(Body),
     functor(Body, Name, Arity),
     functor(Head, Name, Arity),
-    typhon_allowed:runs(Head, Spec),
+    typhon_allowed:allowed(guarded, Head, runs(Spec)),
     arg(I, Spec, Mode),
     arg(I, Body, Arg),
     (   integer(Mode), Mode > 0
@@ -155,7 +150,7 @@ may_call(Name/Arity) :-
 %   around(+Goal, -Whole): Whole calls Goal.
 
 around(Goal, Whole) :-
-    typhon_allowed:runs(_, Spec),
+    allowed_goal(_, runs(Spec)),
     Spec =.. [Name|Modes],
     append(Before, [Mode|After], Modes),
     ( Mode == 0 ; Mode == (^) ; integer(Mode), Mode > 0 ),
