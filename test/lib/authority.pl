@@ -3,7 +3,8 @@
             keys_of/3,                  % +Name, +Authority, -Dir
             verdict/3,                  % +Trail, -Signed, -Verdict
             expired_host/2,             % +Authority, +Name
-            self_made_host/2            % +Authority, +Name
+            self_made_host/2,           % +Authority, +Name
+            birth_signed/4              % +Peer, +Id, +Hash, -Birth
           ]).
 
 /** <module> Keys for tests
@@ -12,6 +13,7 @@
 */
 
 :- use_module(common, [with_tmp_dir/1]).
+:- use_module(peers, [peer_do/2]).
 :- use_module(library(filesex),
               [ directory_file_path/3 ]).
 :- use_module(library(lists), [member/2]).
@@ -87,3 +89,14 @@ path(Name, File, Path) :-
 openssl(Dir, Args) :-
     process_create(path(openssl), Args,
                    [ cwd(Dir), stdin(null), stdout(null), stderr(null) ]).
+
+%!  birth_signed(+Peer, +Id, +Hash, -Birth) is det.
+%
+%   The process Peer signs that it has created the agent Id of a program.
+
+birth_signed(Peer, Id, Hash, birth(Id, Hash, Certificate, Hex)) :-
+    format(string(Text), 'typhon birth ~w ~w', [Id, Hash]),
+    peer_do(Peer, ( typhon_keys:own_keys(Keys),
+                    typhon_keys:keys_sign(Keys, Text,
+                                          signature(Pem, Hex)) )),
+    atom_string(Certificate, Pem).

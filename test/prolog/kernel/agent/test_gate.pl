@@ -261,9 +261,9 @@ far_image(Image, Sent) :-
                                      on_message(_, only_far) ]), A),
               typhon_image:image_hop(A, _, [], [], 0, Image),
               typhon_image:image_hash(Image, Hash),
-              typhon_code:code_sent(Hash, Code),
-              typhon_birth:birth(A, Hash, Birth),
-              Sent = papers(Birth, Code) )).
+              typhon_code:code_sent(Hash, Code) )),
+    birth_signed(far, A, Hash, Birth),
+    Sent = papers(Birth, Code).
 
 %   request(-Case, -Kind, -Request, -Answer, -Audited)
 

@@ -61,8 +61,8 @@ mallory_image(Image, Birth) :-
     peer_do(mallory,
             ( agent_create(Program, A),
               typhon_image:image_hop(A, _, [], [], 0, Image),
-              typhon_image:image_hash(Image, Hash),
-              typhon_birth:birth(A, Hash, Birth) )).
+              typhon_image:image_hash(Image, Hash) )),
+    birth_signed(mallory, A, Hash, Birth).
 
 %   The answer of beta to an image from mallory.
 
@@ -139,7 +139,7 @@ ids_taken :-
     mallory_image(image(Own, Hash, life(P, _, L, T, Ps, S, Ts), State, Goals,
                         Mail, Since), HerBirth),
     Life = life(P, 9, L, T, Ps, S, Ts),
-    peer_do(mallory, typhon_birth:known(A, BirthOfA)),
+    peer_do(mallory, typhon_birth:birth_shown(A, BirthOfA)),
     assertion(BirthOfA = birth(A, Hash, _, _)),
     forall(forged(Case, C, A, Hash, BirthOfA, HerBirth, Id, ItsHash, Birth),
            ( brought(image(Id, ItsHash, Life, State, Goals, Mail, Since),
@@ -151,7 +151,7 @@ ids_taken :-
             Honest),
     assertion(Honest == answer(accepted)),
     long_id(Own, Long),
-    peer_do(mallory, typhon_birth:birth(Long, Hash, LongBirth)),
+    birth_signed(mallory, Long, Hash, LongBirth),
     brought(image(Long, Hash, Life, State, Goals, Mail, Since), LongBirth,
             TooLong),
     assertion(TooLong == answer(refused(identity))).
@@ -167,12 +167,8 @@ forged(without, C, _, Hash, _, _, C, Hash, none).
 forged(with_her_own, C, _, Hash, _, Hers, C, Hash, Hers).
 forged(with_her_own_renamed, C, _, Hash, _, birth(_, _, Pem, Hex), C, Hash,
        birth(C, Hash, Pem, Hex)).
-forged(signed_by_her, C, _, Hash, _, _, C, Hash, birth(C, Hash, Pem, Hex)) :-
-    peer_do(mallory,
-            ( typhon_keys:own_keys(Keys),
-              typhon_birth:birth_text(C, Hash, Text),
-              typhon_keys:keys_sign(Keys, Text, signature(Pem0, Hex)),
-              atom_string(Pem, Pem0) )).
+forged(signed_by_her, C, _, Hash, _, _, C, Hash, Birth) :-
+    birth_signed(mallory, C, Hash, Birth).
 forged(another_program, _, A, _, birth(A, _, Pem, Hex), _, A, another,
        birth(A, another, Pem, Hex)).
 forged(that_of_another, C, _, Hash, Birth, _, C, Hash, Birth).
@@ -188,7 +184,7 @@ senders_forged :-
     agent_create(Program, A),
     agent_create(Program, B, [host(BetaHost)]),
     peer_do(mallory, agent_create(Program, M)),
-    peer_do(mallory, typhon_birth:birth(M, hash, Birth)),
+    birth_signed(mallory, M, hash, Birth),
     many_shown(300, A, B, Birth, Many),
     forall(member(Term,
                   [ message(B, [mail(x, A, received(forged))], 5),
