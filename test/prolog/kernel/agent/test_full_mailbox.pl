@@ -25,7 +25,7 @@ waiting(Agent, Messages) :-
 
 watches(A, B) :-
     current_module(typhon_monitors),
-    catch(typhon_monitors:monitor(_, A, B), error(_, _), fail).
+    catch(typhon_monitors:monitor_set(A, B), error(_, _), fail).
 
 small(Goal) :-
     with_settings([typhon_mailbox:messages=1000], Goal).
