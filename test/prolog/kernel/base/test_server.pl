@@ -13,7 +13,7 @@ The server of these tests has a list of its messages, the newest first.
 *Threading*: the main thread, and the threads of the servers.
 */
 
-:- dynamic ended/1, timeout/0, waits/0.
+:- dynamic ended/1, timeout/0, waits/1. % the thread that waits
 
 handle(begin, List, [begun|List]).
 handle(stop, List, _) :-
@@ -27,7 +27,8 @@ handle(soon(X), List, until(Stamp, [X|List])) :-
 handle(raise(X), _, _) :-
     throw(X).
 handle(wait(Queue), List, List) :-
-    assertz(waits),
+    thread_self(Me),
+    assertz(waits(Me)),
     thread_get_message(Queue, _).
 handle(call(list, Caller), List, List) :-
     reverse(List, All),
@@ -36,8 +37,7 @@ handle(call(raise(X), _), _, _) :-
     throw(error(domain_error(test, X), _)).
 handle(call(silence, _), List, List).
 handle(call(stop, Caller), List, List) :-
-    thread_self(Me),
-    typhon_server:serving(Server, Me),
+    server_self(Server),
     server_stop(Server),
     server_answer(Caller, stopped).
 
@@ -49,7 +49,7 @@ serving(Server, Goal) :-
 serving(Options, Server, Goal) :-
     retractall(ended(_)),
     retractall(timeout),
-    retractall(waits),
+    retractall(waits(_)),
     no_leaks(setup_call_cleanup(
                  server_start(test, test_server:handle, [], Options, Server),
                  once(Goal),
@@ -60,8 +60,7 @@ list(Server, List) :-
 
 %   A signal that comes just before a thread waits does not wake it.
 
-aborted(Server) :-
-    typhon_server:serving(Server, Thread),
+aborted(Thread) :-
     wait_until(test_server:ends(Thread), 10).
 
 ends(Thread) :-
@@ -112,8 +111,8 @@ test(aborted_thread_is_replaced_and_its_queue_kept,
             capturing(( server_cast(Server, add(a)),
                         server_cast(Server, wait(Gate)),
                         server_cast(Server, add(b)),
-                        wait_until(test_server:waits, 10),
-                        aborted(Server),
+                        wait_until(test_server:waits(Thread), 10),
+                        aborted(Thread),
                         wait_until(was_printed(error,
                                                typhon(server_ended(test))), 10),
                         list(Server, List) ), Messages)),
