@@ -1,6 +1,7 @@
 :- module(test_bounds, []).
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/fixtures').
+:- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
@@ -10,71 +11,74 @@
 *Threading*: several threads add facts; another counts them meanwhile.
 */
 
-%   Facts of each table, and a goal that adds one with the number I.
+%   table(?Setting, ?Module, -Goal, ?I): Goal adds fact I to a table of Module.
 
-table(Setting, Fact, I, Goal) :-
-    member(t(Setting, Fact, Goal),
-           [ t(typhon_whereabouts:outcomes, typhon_home:outcome(_, _, _),
+table(Setting, Module, Goal, I) :-
+    member(t(Setting, Module, Goal),
+           [ t(typhon_whereabouts:outcomes, typhon_home,
                typhon_home:home_ended(Id, done, 1, [])),
-             t(typhon_outcomes:results, typhon_outcomes:left(_, _),
+             t(typhon_outcomes:results, typhon_outcomes,
                typhon_outcomes:results_keep(Id, [result(I)])),
-             t(typhon_outcomes:clones, typhon_outcomes:clone_of(_, _),
+             t(typhon_outcomes:clones, typhon_outcomes,
                typhon_outcomes:clone_born(parent, Id)),
-             t(typhon_whereabouts:endings, typhon_whereabouts:ended_here(_, _),
+             t(typhon_whereabouts:endings, typhon_whereabouts,
                typhon_whereabouts:agent_ends(Id, 1)),
-             t(typhon_whereabouts:forwards,
-               typhon_whereabouts:forward(_, _, _, _),
-               typhon_whereabouts:remember_forward(Id, address, 1, here)),
-             t(typhon_questions:met, typhon_questions:met(_, _),
+             t(typhon_whereabouts:forwards, typhon_whereabouts,
+               typhon_whereabouts:agent_went(Id, address, 1, peer, here)),
+             t(typhon_questions:met, typhon_questions,
                typhon_questions:agent_met(Id)) ]),
-    freeze(I, atom_concat('x.', I, Id)).
+    freeze(I, format(atom(Id), 'x.~d@far@127.0.0.1:1', [I])).
+
+%   All tables of a module have the same bound.
+
+most(Module, Bound, Most) :-
+    aggregate_all(count, table(_, Module, _, _), Tables),
+    Most is Tables*Bound.
 
 :- begin_tests(bounds).
 
-test(table_has_never_more_facts_than_its_bound,
+test(tables_have_never_more_facts_than_their_bound,
      [ forall(( member(Bound, [50, 500]),
-                test_bounds:table(Setting, _, _, _) )),
-       true(( Most =< Bound, Last > Bound-max(1, Bound//100) )) ]) :-
-    with_settings([Setting=Bound],
-                  with_hosts([alpha], filled(Setting, Most, Last))).
-
+                member(Module, [ typhon_home, typhon_outcomes,
+                                 typhon_whereabouts, typhon_questions ]),
+                test_bounds:most(Module, Bound, Bounds) )),
+       true(( Most =< Bounds, Last > Bounds-max(2, Bound//50) )) ]) :-
+    with_bounds(Bound, with_hosts([alpha], filled(Module, Most, Last))).
 test(lower_setting_holds_after_a_hundred_additions,
-     [ forall(test_bounds:table(Setting, _, _, _)), true(Count =< 50) ]) :-
+     [ forall(( member(Module, [ typhon_home, typhon_outcomes,
+                                 typhon_whereabouts, typhon_questions ]),
+                test_bounds:most(Module, 50, Bounds) )),
+       true(Count =< Bounds) ]) :-
     with_hosts([alpha],
-               ( with_settings([Setting=5000],
-                               forall(member(Part, [0, 1000, 2000]),
-                                      test_bounds:added(Setting, Part))),
-                 with_settings([Setting=50],
-                               forall(between(9001, 9101, I),
-                                      test_bounds:added_one(Setting, I))),
-                 test_bounds:count(Setting, Count) )).
+               ( with_bounds(5000, test_bounds:added(Module, 1, 1500)),
+                 with_bounds(50, test_bounds:added(Module, 9001, 9101)),
+                 state_size(Module, Count) )).
 
-filled(Setting, Most, Last) :-
-    findall(T, ( member(Part, [0, 1000, 2000, 3000]),
-                 thread_create(test_bounds:added(Setting, Part), T) ), Ts),
-    most(Ts, Setting, 0, Most),
+:- meta_predicate with_bounds(+, 0).
+
+with_bounds(Bound, Goal) :-
+    findall(Setting=Bound, test_bounds:table(Setting, _, _, _), Settings),
+    with_settings(Settings, Goal).
+
+filled(Module, Most, Last) :-
+    findall(T, ( member(First, [1, 1001, 2001, 3001]),
+                 Until is First+499,
+                 thread_create(test_bounds:added(Module, First, Until), T) ),
+            Ts),
+    largest(Ts, Module, 0, Most),
     forall(member(T, Ts), thread_join(T, true)),
-    test_bounds:count(Setting, Last).
+    state_size(Module, Last).
 
-most(Ts, Setting, Most0, Most) :-
-    test_bounds:count(Setting, Count),
+largest(Ts, Module, Most0, Most) :-
+    state_size(Module, Count),
     Most1 is max(Most0, Count),
     (   member(T, Ts),
         thread_property(T, status(running))
-    ->  most(Ts, Setting, Most1, Most)
+    ->  largest(Ts, Module, Most1, Most)
     ;   Most = Most1
     ).
 
 :- end_tests(bounds).
 
-added(Setting, Part) :-
-    forall(between(1, 500, K),
-           ( I is Part+K, added_one(Setting, I) )).
-
-added_one(Setting, I) :-
-    once(table(Setting, _, I, Goal)),
-    call(Goal).
-
-count(Setting, Count) :-
-    once(table(Setting, Fact, _, _)),
-    predicate_property(Fact, number_of_clauses(Count)).
+added(Module, First, Last) :-
+    forall(( between(First, Last, I), table(_, Module, Goal, I) ), call(Goal)).
