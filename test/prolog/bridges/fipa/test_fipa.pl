@@ -699,8 +699,6 @@ test(one_address_does_not_displace_another, Status == 200) :-
           setup_call_cleanup(
               connected_from('127.0.0.2', Port, In, Out),
               ( write(Out, Begin), flush_output(Out),
-                wait_until(typhon_http_server:client(_, _, ip(127,0,0,2), _,
-                                                 reading), 20),
                 findall(Stream,
                         ( between(1, 30, _), half_request(Url, Stream) ),
                         Streams),
