@@ -10,6 +10,7 @@
             fact_of/2,                  % +Agent, ?Fact
             facts/2,                    % +Agent, -Facts
             wait_state/2,               % +Agent, ?State
+            is_watched/1,               % +Host
             address/2                   % +Host, -Address
           ]).
 
@@ -149,3 +150,11 @@ wait_state(Agent, State) :-
 
 address(Host, Address) :-
     host_property(Host, address(Address)).
+
+%!  is_watched(+Host) is semidet.
+%
+%   The process of Host sends events to a watch.
+
+is_watched(Host) :-
+    remote(Host, ( thread_property(_, alias(Alias)),
+                   sub_atom(Alias, 0, _, _, typhon_event_sender) )).

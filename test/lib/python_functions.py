@@ -28,6 +28,7 @@ def kind(value):
 
 
 def nap(seconds):
+    typhon.leave('waits')
     time.sleep(seconds)
     return seconds
 
@@ -40,6 +41,7 @@ def meet():
 
 def held():
     """Returns when let_go is called."""
+    typhon.leave('waits')
     return GO.wait(20)
 
 

@@ -284,8 +284,7 @@ full_for_a_while(Kept, Bad, Dir) :-
 fill_and_free(Address, Link, Real) :-
     hundred(Address, _),
     wait_until(printed(log_not_written(_, _)), 5),
-    forall(typhon_log:server(_, Queue, _, _),      % all writes were tried
-           typhon_log:log_writer_flush(Queue)),
+    forall(typhon_log_file:about_to_read(Link), true), % all writes were tried
     delete_file(Link),
     link_file(Real, Link, symbolic),
     wait_until(( arrives(Address, h, a, meanwhile),

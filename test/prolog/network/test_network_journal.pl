@@ -255,8 +255,7 @@ ends_last(Network) :-
                         with_mutex(typhon_hosting,
                                    ( repeat,
                                      system:sleep(0.02),
-                                     typhon_peer_cache:last_process(Endpoint, _,
-                                                                    gone),
+                                     typhon_peer_cache:endpoint_left(Endpoint),
                                      !,
                                      system:sleep(1) )), _, [detached(true)])).
 
@@ -347,17 +346,17 @@ come_and_go(Edges, Expected, Dir) :-
     Options = [ processes(2), seed(3), clock(5),
                 dynamic(links(uniform(6, 12), 0.5, 0.9)) ],
     network(Dir, ring(6), Options, some_changes),
-    network(Dir, ring(6), [], now_there(Edges, Expected)).
+    typhon_plan:network_plan(ring(6), Options, Plan),
+    network(Dir, ring(6), [], now_there(Plan, Edges, Expected)).
 
 some_changes(Network) :-
     hosts(Network, [Host|_]),
     wait_until(( remote(Host, now(Time)), Time > 12 ), 10).
 
-now_there(Edges, Expected, Network) :-
-    wait_until(as_it_would_be(Network, Edges, Expected), 20).
+now_there(Plan, Edges, Expected, Network) :-
+    wait_until(as_it_would_be(Network, Plan, Edges, Expected), 20).
 
-as_it_would_be(Network, Edges, Expected) :-
-    typhon_networks:network(Network, Plan),
+as_it_would_be(Network, Plan, Edges, Expected) :-
     hosts(Network, Hosts),
     Hosts = [Host|_],
     remote(Host, now(Before)),

@@ -236,20 +236,16 @@ test(guests_are_independent, Statuses == [true, true]) :-
     nb_getval(test_delta, Delta),
     no_leaks(( there(Delta, message_queue_create(_, [alias(first)])),
                there(Delta, message_queue_create(_, [alias(second)])),
-               stays(Delta, first, 1, First),
-               stays(Delta, second, 2, Second),
+               stays(Delta, first, First),
+               stays(Delta, second, Second),
                maplist(goes(Delta), [first-First,second-Second], Statuses) )).
 
 there(Delta, Goal) :-
     remote(Delta, \+ \+ Goal).
 
-stays(Delta, Queue, Count, Thread) :-
+stays(Delta, Queue, Thread) :-
     thread_create(there(Delta, thread_get_message(Queue, go)), Thread),
-    wait_until(guests(Count), 10).
-
-guests(Count) :-
-    findall(Guest, typhon_runtime:user(guest(Guest), _), Guests),
-    length(Guests, Count).
+    wait_until(there(Delta, message_queue_property(Queue, waiting(1))), 10).
 
 goes(Delta, Queue-Thread, Status) :-
     there(Delta, thread_send_message(Queue, go)),

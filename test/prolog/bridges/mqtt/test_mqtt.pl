@@ -636,11 +636,22 @@ killed :-
     typhon_helper_requests:helper_pid(mqtt(alpha), Pid),
     process_kill(Pid, kill).
 
+%   The connection is up or down, as was last reported.
+
+:- dynamic connection/1.
+:- multifile user:message_hook/3.
+
+user:message_hook(typhon(Message), _, _) :-
+    memberchk(Message-State, [mqtt_up(alpha)-up, mqtt_down(alpha)-down]),
+    retractall(plunit_mqtt_brokers:connection(_)),
+    assertz(plunit_mqtt_brokers:connection(State)),
+    fail.
+
 down :-
-    \+ typhon_mqtt_incoming:up(alpha, _).
+    connection(down).
 
 up :-
-    typhon_mqtt_incoming:up(alpha, _).
+    connection(up).
 
 fill(0, none) :-
     !.

@@ -308,24 +308,29 @@ test(service_offered_by_an_agent) :-
           assertion(Taken == permission_error(offer, ros_service, '/add')) )).
 
 %   A call is refused if the queue of the agent is full; it is not counted
-%   among the calls that wait for the agent.
+%   among the calls that wait for agents.
 
 test(a_call_that_is_dropped) :-
-    on_a_host(_, [],
-        ( agent_create(clauses([ (:- agent(slow, [])),
-                                 (main :- ros_offer('/s', 'std_srvs/Empty',
-                                                    [queue(1)]),
-                                          receive(_-never)) ]),
-                       _, [host(alpha)]),
-          frame_sent("advertise_service", _),
-          forall(member(Id, [c1, c2, c3]),
-                 rosbridge_send(_{ op:call_service, id:Id, service:'/s',
-                                   args:_{} })),
+    with_settings([typhon_ros_requests:most=2], on_a_host(_, [],
+        ( offers_slowly('/s', _),
+          offers_slowly('/t', Other),
+          forall(member(Id, [c1, c2, c3]), calls(Id, '/s')),
           forall(member(Id, ["c2", "c3"]),
                  wait_until(( said("service_response", Frame),
                               Frame.id == Id, Frame.result == false ), 5)),
-          findall(Id, typhon_ros_requests:request(Id, _, _), Open),
-          assertion(Open == [c1]) )).
+          calls(c4, '/t'),
+          wait_until(agent_property(Other, mailbox([_])), 5) ))).
+
+offers_slowly(Service, Agent) :-
+    agent_create(clauses([ (:- agent(slow, [state([service/1])])),
+                           (main :- service(S),
+                                    ros_offer(S, 'std_srvs/Empty', [queue(1)]),
+                                    receive(_-never)) ]),
+                 Agent, [host(alpha), facts([service(Service)])]),
+    frame_sent("advertise_service", _).
+
+calls(Id, Service) :-
+    rosbridge_send(_{op:call_service, id:Id, service:Service, args:_{}}).
 
 test(a_service_that_fails) :-
     on_a_host(Agent, [],

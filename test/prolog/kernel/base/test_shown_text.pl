@@ -4,7 +4,6 @@
 :- use_module('../../../lib/peers').
 :- use_module('../../../../prolog/typhon/kernel/base/error_text').
 :- use_module('../../../../prolog/typhon/kernel/base/text').
-:- use_module('../../../../prolog/typhon/network/child_output', [output_line/2]).
 :- use_module(library(plunit)).
 :- use_module(library(debug)).
 :- use_module(library(filesex), [directory_file_path/3]).
@@ -137,8 +136,6 @@ test(messages_without_them_are_unchanged, true(Line == "~w at ~w: "-[b,a])) :-
     Lines = [Format-Args|_],
     atom_string(Format, Text),
     Line = Text-Args.
-test(output_of_child_processes, Text == "[n/1] a\\x1B\\[2J\n") :-
-    with_tmp_dir(printed_by_child("a\e[2J", Text)).
 test(names_of_hosts, [ forall(member(Name, ['a\nb', 'a\e[2J', 'a\u202eb', ''])),
                        error(domain_error(host_name, _)) ]) :-
     host_start(Name).
@@ -173,16 +170,6 @@ debugged(Text, Printed, Dir) :-
         debug(typhon(test), '~w~n', [Text]),
         ( nodebug(typhon(test)), close(Out) )),
     read_file_to_string(File, Printed, [encoding(utf8)]).
-
-printed_by_child(Line, Text, Dir) :-
-    directory_file_path(Dir, out, File),
-    stream_property(Old, alias(user_output)),
-    setup_call_cleanup(
-        ( open(File, write, Out, [encoding(utf8)]),
-          set_stream(Out, alias(user_output)) ),
-        output_line(n-1, Line),
-        ( set_stream(Old, alias(user_output)), close(Out) )),
-    read_file_to_string(File, Text, [encoding(utf8)]).
 
 %   Agents raise errors as quotas do.
 

@@ -858,14 +858,14 @@ test(stubborn, [ forall(( stubborn(Kind, Clauses), Kind \== reading )),
                            agent_join(A, O, 10) ))).
 test(agent_has_ended_when_its_host_has_stopped, O == disposed) :-
     setup_call_cleanup(
-        wrap_predicate(typhon_ending:report_end(_, _, _), slow, Told,
-                       ( sleep(0.4), Told )),
+        wrap_predicate(typhon_hosts:host_leave(_), slow, Left,
+                       ( sleep(0.4), Left )),
         impatient(with_hosts([alpha],
                              ( create([(main :- between(1, inf, _), fail)], A),
                                wait_state(A, running),
                                host_stop(alpha),
                                agent_join(A, O, 10) ))),
-        unwrap_predicate(typhon_ending:report_end/3, slow)).
+        unwrap_predicate(typhon_hosts:host_leave/1, slow)).
 test(deadline_is_set_before_the_agent_rests,
      [ forall(member(Wait, [sleep(60), receive(_, 60), move(beta)])),
        States == [running] ]) :-

@@ -51,7 +51,7 @@ ending_when_asked(Clauses, Agent, Goal) :-
     create([ (over :- sense(over)) |Clauses], Agent),
     wait_until(running_for(Agent, 0.02), 10),
     setup_call_cleanup(
-        thread_create(( wait_until(typhon_mailbox:order(Agent, _), 10),
+        thread_create(( wait_until(typhon_mailbox:agent_ordered(Agent), 10),
                         remote(alpha, leave(over)) ), Ends),
         once(Goal),
         thread_join(Ends, Ended)),
@@ -221,7 +221,8 @@ clone_in_vain(A, E) :-
     thread_self(Me),
     thread_create(( catch(agent_clone(A, _), error(F, _), true),
                     thread_send_message(Me, cloned(F)) ), T),
-    wait_until(typhon_mailbox:order(A, asked(clone, _)), 5),
+    wait_until(( typhon_mailbox:agent_orders(A, Orders),
+                 memberchk(asked(clone, _), Orders) ), 5),
     agent_dispose(A, [force(0)]),
     thread_get_message(cloned(E)),
     thread_join(T, true).
@@ -340,9 +341,10 @@ test(agent_that_ends_during_a_listing_is_not_queried_elsewhere, Found == []) :-
                  peer_do(b, wait_until(agent_property(Id, state(resident)), 10)),
                  peer_signal(a, stop),
                  peer_do(b, \+ \+ prolog_wrap:wrap_predicate(
-                                typhon_properties:question(_, _), ends, Asked,
-                                ( typhon:agent_dispose(Id), Asked ))),
-                 peer_do(b, findall(I, agent_property(I, state(_)), Found)),
+                                typhon_questions:agent_ask_here(I, _, _, _),
+                                ends, Asked,
+                                ( typhon:agent_dispose(I), Asked ))),
+                 peer_do(b, findall(A, agent_property(A, state(_)), Found)),
                  peer_signal(a, cont) )).
 
 runaway_to(Host, Id) :-

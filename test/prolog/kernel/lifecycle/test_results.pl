@@ -43,7 +43,7 @@ test(agent_whose_process_is_gone_is_lost, Outcome == lost(B)) :-
                                          Id, [])),
                  wait_until(peer_do(b, agent_property(Id, state(resident))),
                             10),
-                 wait_until(peer_do(a, typhon_home:born(Id, B, _, _)), 10),
+                 wait_until(peer_do(a, typhon_home:home_knows(Id, B, _, _)), 10),
                  peer_do(a, agent_join(Id, timeout, 0)),
                  peer_kill(b),
                  wait_until(( peer_do(a, agent_join(Id, Outcome, 0.5)),

@@ -3,6 +3,7 @@
 :- use_module('../../../lib/common').
 :- use_module(library(filesex), [chmod/2, directory_file_path/3]).
 :- use_module(library(plunit)).
+:- use_module(library(sha), [hash_atom/2, hmac_sha/4]).
 :- use_module(library(settings), [set_setting/2, setting/2]).
 :- use_module(library(socket)).
 :- use_module(library(thread), [concurrent/3]).
@@ -367,8 +368,9 @@ false_server(Kind, In, Out) :-
     next_line(In, Proof),
     (   Kind == reflected
     ->  Answer = Proof
-    ;   typhon_handshake:proof("a guess of 16 bytes", server, Theirs, Ours,
-                               Answer)
+    ;   format(string(Data), "server\n~w\n~w", [Theirs, Ours]),
+        hmac_sha("a guess of 16 bytes", Data, Hash, [algorithm(sha256)]),
+        hash_atom(Hash, Answer)
     ),
     line_write(Out, Answer).
 

@@ -234,8 +234,7 @@ posted(Process, I) :-
 
 seen_of(Process, Count) :-
     peer_do(p, aggregate_all(count,
-                             ( catch(typhon_channel:seen(Key, _),
-                                     error(existence_error(_, _), _), fail),
+                             ( typhon_durable:durable_dump(seen, Key, _, _),
                                sub_atom(Key, 0, _, _, Process) ),
                              Count0)),
     Count = Count0.
@@ -274,11 +273,13 @@ forged_events_there(Shown) :-
 
 acknowledged(Left) :-
     peer_do(p, use_module(library(typhon/options/journal/channel), [])),
-    peer_do(p, assertz(typhon_channel:out('10.0.0.1:1', 1, note, n(1)))),
+    peer_do(p, typhon_durable:durable_restore(out, '10.0.0.1:1', 1,
+                                              item(note, n(1)))),
     sent(post, channel, had('10.0.0.1:1', 5)),
     sent(post, channel, again('10.0.0.1:1')),
     sent(post, channel, channel(x, x, first(-1), 0, bogus, x)),
-    peer_do(p, findall(Term, typhon_channel:out('10.0.0.1:1', _, _, Term),
+    peer_do(p, findall(Term, typhon_durable:durable_dump(out, '10.0.0.1:1', _,
+                                                         item(_, Term)),
                        Left)).
 
 node_answers(Child, Term, Answer) :-

@@ -65,15 +65,15 @@ got(Id, Expected) :-
 %   not safe.
 
 :- dynamic
-    interrupted/0,                      % once, before messages are posted
+    interrupted/1,                      % Thread: once, before it has posted
     held/0.  % once, when a worker has posted messages
 
 :- public interrupt/0, hold/1.
 
 interrupt :-
-    (   retract(interrupted)
-    ->  thread_self(Me),
-        thread_signal(Me, throw(told_to_end))
+    thread_self(Me),
+    (   retract(interrupted(Me))
+    ->  thread_signal(Me, throw(told_to_end))
     ;   true
     ).
 
@@ -89,11 +89,12 @@ test(interrupted_post_does_not_block_others) :-
     with_beta(
         ( nb_getval(channel_beta, Beta),
           listener(Beta, Id),
-          wrap_predicate(typhon_channel:set_out(_, _), told_to_end, Wrapped,
+          wrap_predicate(typhon_scheduler:scheduler_call(_), told_to_end, Wrapped,
                          ( plunit_channel:interrupt, Wrapped )),
-          assertz(interrupted),
+          thread_self(Me),
+          assertz(interrupted(Me)),
           catch(agent_send(Id, first), told_to_end, true),
-          \+ interrupted,
+          \+ interrupted(_),
           agent_send(Id, second),
           got(Id, [first, second]) ),
         true).
@@ -213,7 +214,7 @@ test(forwarded_message_is_moved_in_one_unit_of_work) :-
           atom_concat('driver@', Endpoint, Here),
           nb_getval(channel_beta, Beta),
           atom_concat('late.abc.0@', Beta, Late),
-          assertz(typhon_whereabouts:forward(Late, Here, 1, unknown)),
+          typhon_durable:durable_restore(gone, Late, 0, gone(Here, 1, unknown)),
           noting_entries,
           agent_create(clauses([ (:- agent(says, [state([to/1])])),
                                  (main :- to(To), send(To, hello)) ]),
@@ -298,11 +299,11 @@ test(queued_messages_are_split_over_frames) :-
           listener(Beta, Id),
           typhon_endpoint:endpoint_address(Endpoint),
           atom_concat('driver@', Endpoint, Here),
-          assertz(typhon_whereabouts:forward(Id, Here, 1, unknown)),
+          typhon_durable:durable_restore(gone, Id, 0, gone(Here, 1, unknown)),
           text(30000, Text),
           numlist(1, 7, Numbers),
           small(( forall(member(N, Numbers), agent_send(Id, N-Text)),
-                  retractall(typhon_whereabouts:forward(Id, _, _, _)),
+                  typhon_whereabouts:agent_seen(Id, Beta, 2, unknown),
                   findall(N-Text, member(N, Numbers), All),
                   got(Id, All) )) ),
         true).
@@ -354,7 +355,7 @@ dead_letter_reported(Id, Formal) :-
 
 pages(Most) :-
     format(atom(Pragma), 'pragma max_page_count=~d', [Most]),
-    typhon_store:connection(_, Connection),
+    odbc:odbc_current_connection(Connection, _),
     with_mutex(typhon_commit,
                odbc:odbc_query(Connection, Pragma, _, [])).
 
@@ -362,7 +363,7 @@ full :-
     pages(1),
     numlist(1, 20000, Long),
     remote(driver, leave(Long)),
-    wait_until(typhon_committing:reported(_), 20).
+    wait_until(typhon_durable_changes:commit_error(_), 20).
 
 test(answer_waits_while_the_journal_is_full, Line == "answered") :-
     no_leaks(with_tmp_dir(asked_while_full(Line))).

@@ -55,7 +55,7 @@ with_schema(Schema, Goal) :-
     with_store(Url, Goal).
 
 sql(Sql) :-
-    typhon_store:connection(_, Connection),
+    odbc:odbc_current_connection(Connection, _),
     typhon_sql:sql_do(Connection, Sql).
 
 test(committed_changes_are_restored) :-
@@ -106,7 +106,7 @@ test(synchronous_commit_is_optional) :-
     forall(member(Sync-Setting, [normal-off, full-on]),
            ( postgres_url(sync, Url),
              with_store(Url, Sync,
-                        ( typhon_store:connection(_, C),
+                        ( odbc:odbc_current_connection(C, _),
                           once(typhon_sql:sql_row(C, 'show synchronous_commit',
                                                   row(Setting), [atom])) ))
            )).

@@ -207,7 +207,7 @@ all_came(Keeper, Sent) :-
 %   Each of these is a step of a stop.
 
 stop_does(typhon_durable_changes:durable_close).
-stop_does(typhon_disposal:evacuate(_, _)).
+stop_does(typhon_hosting:evacuate(_, _)).
 stop_does(typhon_links:host_unlink(_, _)).
 stop_does(typhon_events:event(_, _, _, _)).
 stop_does(typhon_events:events_forget(_)).

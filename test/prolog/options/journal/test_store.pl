@@ -190,7 +190,7 @@ full(Dir) :-
     numlist(1, 20000, List),
     with_store(Dir,
                ( commit([a-k-0-first]),
-                 typhon_store:connection(_, Connection),
+                 odbc:odbc_current_connection(Connection, _),
                  odbc:odbc_query(Connection, 'pragma max_page_count=1', _, []),
                  catch(commit([a-k-0-second, a-l-0-List]), error(Full, _), true),
                  odbc:odbc_query(Connection, 'pragma max_page_count=100000',

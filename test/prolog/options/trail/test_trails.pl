@@ -198,8 +198,11 @@ another(_, Term) :-
                     1+1, f(_), received(x), received(_), handed(x, y),
                     entered(z), at(0, 0, 0, none, none) ]).
 
-chained(Link, Chain0, Chain) :-
-    typhon_trail:chain_add(Link, 1-Chain0, 9, _-Chain).
+chained(link(Text, Hex, C), Chain0, Chain) :-
+    format(string(Link), '~w ~d ~s', [Hex, C, Text]),
+    string_length(Link, Length),
+    format(string(Framed), '~`0t~d~8|~s', [Length, Link]),
+    string_concat(Chain0, Framed, Chain).
 
 %   forged(+Links, -Forged, -Verdict): newest first. Links are two of gamma, two
 %   of beta, the older with what it received and what was entered, one of alpha.

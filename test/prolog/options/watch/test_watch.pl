@@ -256,7 +256,7 @@ test(watcher_unwatches_itself) :-
                  watch(alpha, once_only, Watch),
                  note(within, Watch),
                  agent_send(A, one),
-                 wait_until(\+ typhon_watch_receiver:watch(Watch, _), 5),
+                 wait_until(told(over, Watch), 5),
                  agent_send(A, two) )),
     findall(E, told(only, E), Heard),
     assertion(Heard = [event(_, _, A, received(user))]),
@@ -266,7 +266,8 @@ test(watcher_unwatches_itself) :-
 once_only(Event) :-
     told(within, Watch),
     note(only, Event),
-    unwatch(Watch).
+    unwatch(Watch),
+    note(over, Watch).
 
 test(hanging_watcher_is_ended) :-
     with_settings([typhon_watches:last_seconds = 0.2],
@@ -283,9 +284,9 @@ hang(Queue, _) :-
 test(no_events_after_unwatch) :-
     with_hosts([alpha, beta],
                ( watching([alpha, beta], true, _),
-                 \+ typhon_events:subscription(_, _, _),
-                 wait_until(\+ typhon_watch_senders:sender(_, _, _, _, _),
-                            5) )).
+                 \+ ( member(Kind, [life, hops, messages, facts]),
+                      typhon_events:event_subscribed(Kind) ),
+                 wait_until(\+ is_watched(alpha), 5) )).
 
 test(unknown_watch, error(existence_error(watch, watch_of_mine))) :-
     unwatch(watch_of_mine).

@@ -164,14 +164,12 @@ test(headers) :-
 
 test(read_only) :-
     page([read_only(true)], Base,
-         ( findall(What,
-                   clause(typhon_page_browser_orders:run_order(What, _, _), _),
-                   All),
-           assertion(memberchk(create, All)),
-           forall(member(What, All),
-                  ( atom_string(What, Text),
-                    fails(Base, _{do:Text, text:"", agent:"a"}, ["permission"])
-                  )),
+         ( forall(member(What, [ "check", "create", "send", "move", "clone",
+                                 "resume", "dispose", "save", "load", "link",
+                                 "unlink", "host_start", "host_stop",
+                                 "network_start", "network_stop", "mechanism",
+                                 "any other" ]),
+                  fails(Base, _{do:What, text:"", agent:"a"}, ["permission"])),
            answer(Base, _{ask:"survey"}, _{hosts:[_,_], agents:[], time:_}) )).
 
 test(loopback_only, Addresses == ['127.0.0.1']) :-
@@ -626,8 +624,8 @@ test(browsers_connect_and_disconnect) :-
 
 come_and_go(Feed, [First|Hosts], Pid) :-
     last(Hosts, Last),
-    wait_until(typhon_page_sources:watched(Last, _), 15),
-    wait_until(typhon_page_sources:watched(First, _), 15),
+    wait_until(is_watched(Last), 15),
+    wait_until(is_watched(First), 15),
     maplist(atom_string, [First, Last], [FirstText, LastText]),
     create([main], _, [host(Last)]),
     feed_event(Feed, [LastText, _, "created"], _),
@@ -687,8 +685,8 @@ test(no_events_are_collected_without_a_browser) :-
         page(Base,
              ( with_feed(Base, Feed,
                          ( frame(Feed, _),
-                           assertion(typhon_page_sources:watched(_, _)) )),
-               wait_until(\+ typhon_page_sources:watched(_, _), 20) ))).
+                           assertion(is_watched(alpha)) )),
+               wait_until(\+ is_watched(alpha), 20) ))).
 
 %   A page in its own process shows a network by one of its hosts.
 
