@@ -7,7 +7,6 @@
 :- use_module(library(plunit)).
 :- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/network/node_process), []).
 
 /** <module> Errors of agents and of other processes are only data
 
@@ -227,12 +226,23 @@ test(errors_of_another_process_are_harmless_and_unchanged) :-
                    assertion(Formal1 == Formal) )),
           thrown_there(There, oops, Oops),
           assertion(Oops == oops) ))).
-test(process_of_a_network_returns_errors_as_data,
-     [forall(hostile(Ball)), Answer = raised(_, _)]) :-
-    printing(typhon_node_process:raised(Ball, Answer), _),
-    untouched.
+test(process_of_a_network_returns_errors_as_data) :-
+    no_leaks(setup_call_cleanup(
+        network_start(line(2), N, [processes(2)]),
+        ( network_property(N, hosts([Host|_])),
+          forall(hostile(Ball), returned_harmlessly(N, Host, Ball)) ),
+        network_stop(N))).
 
 :- end_tests(errors_of_other_processes).
+
+returned_harmlessly(Network, Host, Ball0) :-
+    atomic_list_concat([Name, _], @, Host),
+    catch(typhon_nodes:node_order(Network, 1, places([Name-throw(Ball0)]), _),
+          Ball, true),
+    printing(at_the_top_level(Ball), _),
+    assertion(untouched),
+    remote(Host, flag(typhon_printed, There, There)),
+    assertion(There == 0).
 
 printed_harmlessly(There, Ball0) :-
     thrown_there(There, Ball0, Ball),
