@@ -89,9 +89,11 @@ calls_internal(Suite) :-
     \+ ( offered(File, all, Name/More), More >= Arity ).
 
 holds_state(File) :-
-    member(Name, [ dynamic, thread_local, nb_setval, b_setval, flag, with_mutex,
-                   message_queue_create, thread_create ]),
-    mentions(File, Name),
+    (   stores(File, _)
+    ;   member(Name, [ nb_setval, b_setval, flag, with_mutex,
+                       message_queue_create, thread_create ]),
+        mentions(File, Name)
+    ),
     !.
 
 figures(Top) :-

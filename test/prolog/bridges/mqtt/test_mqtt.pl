@@ -15,7 +15,7 @@ programs.
 :- use_module(library(plunit)).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists), [member/2, numlist/3]).
+:- use_module(library(lists), [last/2, member/2, numlist/3]).
 :- use_module(library(process),
               [process_create/3, process_kill/2, process_wait/2]).
 :- use_module(library(socket),
@@ -638,14 +638,12 @@ killed :-
 
 %   The connection is up or down, as was last reported.
 
-:- dynamic connection/1.
-:- multifile user:message_hook/3.
-
-user:message_hook(typhon(Message), _, _) :-
-    memberchk(Message-State, [mqtt_up(alpha)-up, mqtt_down(alpha)-down]),
-    retractall(plunit_mqtt_brokers:connection(_)),
-    assertz(plunit_mqtt_brokers:connection(State)),
-    fail.
+connection(State) :-
+    findall(S, ( printed_message(_, typhon(Message)),
+                 memberchk(Message-S,
+                           [mqtt_up(alpha)-up, mqtt_down(alpha)-down]) ),
+            States),
+    last(States, State).
 
 down :-
     connection(down).

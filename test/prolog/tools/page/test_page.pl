@@ -561,8 +561,7 @@ scene(console_has_no_errors) :-
 %   when there is a page again at the same address.
 
 scene(connection_lost) :-
-    at(_, _, _),
-    page_address(Port, Token),
+    at(_, Base, _),
     page_stop,
     reads("#state", "connection lost"),
     reads("#notes", "connection is lost"),
@@ -570,9 +569,7 @@ scene(connection_lost) :-
     click("[role=menuitem]"-"End a network …"),
     reads("#notes .error", "does not answer"),
     see("return typhon.store.hosts.size >= 60"),
-    page_serve([port(Port), read_only(true)], _),
-    retract(typhon_page_server:serving(Port, _, true)),
-    assertz(typhon_page_server:serving(Port, Token, true)),
+    served_again(Base, [read_only(true)]),
     reads("#state", "live"),
     reads("#state", "only to look at"),
     sees("return document.querySelector('#actions').childElementCount", 0).
@@ -594,8 +591,16 @@ links_are(Count0) :-
     format(string(Script), "return typhon.store.links.size === ~d", [Count]),
     see(Script).
 
-page_address(Port, Token) :-
-    typhon_page_server:serving(Port, Token, _).
+%   A page at the address of an earlier one.
+
+served_again(Base, Options) :-
+    atomic_list_concat([_, _, Site, Token, _], /, Base),
+    atomic_list_concat([_, Port0], :, Site),
+    atom_number(Port0, Port),
+    setup_call_cleanup(
+        wrap_predicate(typhon_page_guard:token_new(New), same, _, New = Token),
+        page_serve([port(Port)|Options], _),
+        unwrap_predicate(typhon_page_guard:token_new/1, same)).
 
 program(":- agent(ann, [state([seen/1])]).\n\c
          \n\c
