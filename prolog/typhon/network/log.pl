@@ -1,7 +1,6 @@
 :- module(typhon_log,
           [ log_serve/2,                % +Options, -Address
-            log_serve_end/1,            % +Address
-            log_writer_flush/1          % +Writer
+            log_serve_end/1             % +Address
           ]).
 :- use_module(library(apply), [include/3]).
 :- use_module(library(debug), [debug/3]).
@@ -122,7 +121,7 @@ stop(Name, Address) :-
 
 typhon_log_file:about_to_read(File) :-
     forall(server(_, Writer, File, _),
-           in_own_thread(log_writer_flush(Writer))).
+           in_own_thread(writer_flush(Writer))).
 
 %   Messages that this process posts to itself arrive in order, so the answer to
 %   a request shows that the posts before it have arrived. When the journal is
@@ -187,12 +186,10 @@ log_writer_start(Spec, Mode, File, Writer) :-
           Error,
           ( close(Stream), throw(Error) )).
 
-%!  log_writer_flush(+Writer) is det.
-%
-%   Wait until all earlier events are in the file, or have been dropped because
-%   it cannot be written; at most five seconds.
+%   writer_flush(+Writer): wait until all earlier events are in the file, or have
+%   been dropped because it cannot be written; at most five seconds.
 
-log_writer_flush(Writer) :-
+writer_flush(Writer) :-
     catch(ignore(server_call(Writer, flush, 5, _)),
           error(existence_error(_, _), _),
           true).                        % Writer has written all, and has ended

@@ -11,7 +11,6 @@
 :- use_module(library(random), [random_between/3, random_member/2]).
 :- use_module(library(typhon/bridges/fipa/acl)).
 :- use_module(library(typhon/bridges/fipa/letter)).
-:- use_module(library(typhon/bridges/fipa/managers)).
 :- use_module(library(typhon/bridges/fipa/sl)).
 :- use_module(library(typhon/fipa), []).
 
@@ -410,7 +409,7 @@ found(Template, Description, Found) :-
 :- meta_predicate directory(0).
 
 directory(Goal) :-
-    call_cleanup(once(Goal), manager_end(test)).
+    call_cleanup(once(Goal), typhon_fipa_managers:manager_end(test)).
 
 registered(Name, Parameter) :-
     manager_does(register('df-agent-description'(name:fipa(Name, []),
@@ -422,4 +421,5 @@ searched(Parameter, Found) :-
                  inform-[result(_, Found)]).
 
 manager_does(Act, Reply) :-
-    manager_answer(test, df, acl(request, [content([action(x, Act)])]), Reply).
+    typhon_fipa_managers:manager_answer(
+        test, df, acl(request, [content([action(x, Act)])]), Reply).

@@ -1,10 +1,8 @@
 :- module(test_private, []).
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/fixtures').
+:- use_module('../../../lib/pages', [with_page/3]).
 :- use_module('../../../../prolog/typhon/kernel/base/private').
-:- use_module('../../../../prolog/typhon/kernel/wire/handshake', [cookie/1]).
-:- use_module('../../../../prolog/typhon/tools/page/editor',
-              [editor_start/0, editor_stop/0, text_file/3]).
 :- use_module(library(plunit)).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(filesex),
@@ -14,6 +12,7 @@
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(thread), [concurrent_maplist/3]).
 :- use_module(library(typhon)).
+:- use_module(library(typhon/kernel/wire), [cookie/1]).
 
 /** <module> Folders and files that other users cannot read or exchange
 
@@ -105,19 +104,18 @@ test(made_cookie, Mode == 'rw-------') :-
     with_tmp_dir(made_cookie(Mode)).
 test(text_in_place_of_a_program_is_no_program,
      error(permission_error(create, program, _))) :-
-    setup_call_cleanup(
-        editor_start,
-        ( text_file("main.", 'program.pl', File),
-          chmod(File, 0o600), put(File, "evil."),
-          text_file("main.", 'program.pl', _) ),
-        editor_stop).
+    with_page([], _,
+              ( text_file(File), chmod(File, 0o600), put(File, "evil."),
+                text_file(_) )).
 test(folder_of_texts, Mode == 'rwx------') :-
-    setup_call_cleanup(
-        editor_start,
-        ( text_file("main.", 'program.pl', File),
-          file_directory_name(File, Own), file_directory_name(Own, Folder),
-          mode(Folder, Mode) ),
-        editor_stop).
+    with_page([], _,
+              ( text_file(File),
+                file_directory_name(File, Own),
+                file_directory_name(Own, Folder),
+                mode(Folder, Mode) )).
+
+text_file(File) :-
+    typhon_page_editor:text_file("main.", 'program.pl', File).
 
 :- end_tests(private).
 
