@@ -7,48 +7,28 @@
 
 /** <module> Processes whose disk fails when tests say so
 
-A library, compiled from `failing_disk.c` and preloaded, lets calls of the system
-fail while the file named by FAILING_DISK tells it to.
+The library `failing_disk.c` lets calls of the system fail while the file named by
+FAILING_DISK tells it to.
 
 *Threading*: the main thread sets up; any thread of such a process lets its disk
 fail.
 */
 
-:- use_module(common, [project_file/2, with_tmp_dir/1]).
-:- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(process), [process_create/3]).
+:- use_module(preloaded, [can_preload/1, with_preloaded/4]).
 
 :- meta_predicate with_failing_disk(-, 0).
 
 %!  disk_can_fail is semidet.
-%
-%   There is a compiler.
 
 disk_can_fail :-
-    catch(with_tmp_dir(failing_disk:compiled), error(_, _), fail).
-
-compiled(Dir) :-
-    compiled(Dir, _).
-
-compiled(Dir, Library) :-
-    project_file('test/lib/failing_disk.c', Source),
-    directory_file_path(Dir, 'failing_disk.so', Library),
-    process_create(path(cc),
-                   ['-shared', '-fPIC', '-o', Library, Source, '-ldl'],
-                   [stderr(null)]).
+    can_preload(failing_disk).
 
 %!  with_failing_disk(-Environment:list, :Goal) is semidet.
 %
 %   Run once(Goal), which starts processes with Environment.
 
 with_failing_disk(Environment, Goal) :-
-    with_tmp_dir(failing_disk:failing(Environment, Goal)).
-
-failing(Environment, Goal, Dir) :-
-    compiled(Dir, Library),
-    directory_file_path(Dir, fails, File),
-    Environment = ['LD_PRELOAD'=Library, 'FAILING_DISK'=File],
-    once(Goal).
+    with_preloaded(failing_disk, 'FAILING_DISK'=_, Environment, Goal).
 
 %!  disk_fails(+Call) is det.
 %!  disk_heals is det.

@@ -7,16 +7,13 @@
 
 /** <module> Processes whose time of day tests can set
 
-A library, compiled from `set_clock.c` and preloaded, adds the contents of a
-file to the time of day of a process and of its children.  Waits until a time of
+The library `set_clock.c` adds the contents of a file to the time of day of a process and of its children.  Waits until a time of
 day follow it, as those of the system follow its clock.
 
 *Threading*: the main thread sets up; any thread sets the clock.
 */
 
-:- use_module(common, [project_file/2, with_tmp_dir/1]).
-:- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(process), [process_create/3]).
+:- use_module(preloaded, [can_preload/1, with_preloaded/4]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 
 :- meta_predicate
@@ -28,33 +25,16 @@ day follow it, as those of the system follow its clock.
 %   There are a compiler, and a C library with the wait that the library needs.
 
 clock_is_settable :-
-    catch(with_tmp_dir(set_clock:compiled), error(_, _), fail).
-
-compiled(Dir) :-
-    compiled(Dir, _).
-
-compiled(Dir, Library) :-
-    project_file('test/lib/set_clock.c', Source),
-    directory_file_path(Dir, 'set_clock.so', Library),
-    process_create(path(cc), ['-shared', '-fPIC', '-o', Library, Source],
-                   [stderr(null)]).
+    can_preload(set_clock).
 
 %!  with_settable_clock(-Environment:list, :Goal) is semidet.
 %
 %   Run once(Goal), which starts processes with Environment.
 
 with_settable_clock(Environment, Goal) :-
-    with_tmp_dir(set_clock:settable(Environment, Goal)).
-
-settable(Environment, Goal, Dir) :-
-    compiled(Dir, Library),
-    directory_file_path(Dir, offset, File),
-    setup_call_cleanup(
-        open(File, write, Out, [type(binary)]),
-        write_offset(Out, 0),
-        close(Out)),
-    Environment = ['LD_PRELOAD'=Library, 'CLOCK_FILE'=File],
-    once(Goal).
+    with_preloaded(set_clock, 'CLOCK_FILE'=File, Environment,
+                   ( set_offset(File, write, 0),
+                     once(Goal) )).
 
 %!  clock_set(+Seconds) is det.
 %
@@ -63,8 +43,11 @@ settable(Environment, Goal, Dir) :-
 
 clock_set(Seconds) :-
     getenv('CLOCK_FILE', File),
+    set_offset(File, update, Seconds).
+
+set_offset(File, Mode, Seconds) :-
     setup_call_cleanup(
-        open(File, update, Out, [type(binary)]),
+        open(File, Mode, Out, [type(binary)]),
         write_offset(Out, Seconds),
         close(Out)).
 

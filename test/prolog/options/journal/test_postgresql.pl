@@ -58,35 +58,13 @@ sql(Sql) :-
     odbc:odbc_current_connection(Connection, _),
     typhon_sql:sql_do(Connection, Sql).
 
-test(committed_changes_are_restored) :-
-    with_schema(kept, commit([a-'kéy'-1-f(X, Y, X, Y), a-other-2-[],
-                             b-'kéy'-0-"é"])),
-    with_schema(kept, ( items(a, [K-1-F, other-2-[]]), items(b, [_-0-B]) )),
-    K == 'kéy', F =@= f(X, Y, X, Y), B == "é".
-test(uncommitted_changes_are_lost_as_a_whole) :-
-    with_schema(whole, commit([a-k-1-one])),
-    catch(with_schema(whole, commit([a-k-2-two, no_change])), error(_, _),
-          true),
-    with_schema(whole, items(a, [k-1-one])).
-test(changes_are_applied_in_order) :-
-    with_schema(in_order,
-               ( commit([a-k-1-x, a-k-2-y, a-k-3-z, a-l-1-w, drop(a, k, 2)]),
-                 commit([drop_below(a, k, 3), a-k-9-v, a-k-9-u]),
-                 commit([a-m-7-t, drop_all(a, m)]),
-                 items(a, [l-1-w, k-3-z, k-9-u]) )).
-test(long_terms_are_replaced_by_short_ones) :-
-    forall(member(Length, [10, 20000, 300000, 15000, 5]),
-           ( numlist(1, Length, List),
-             with_schema(long, commit([a-k-0-List])),
-             with_schema(long, items(a, [k-0-List])) )).
+test(store_keeps_what_is_committed, [forall(stored(What)), nondet]) :-
+    postgres_url(What, Url),
+    store_keeps(What, Url).
 test(other_process_is_locked_out_per_schema) :-
     postgres_url(locked, Url),
-    project_file('prolog/typhon/options/journal/store.pl', Store),
-    format(atom(Goal), 'journal_open(~q, normal), writeln(open), \c
-                        flush_output, read(_)', [Url]),
-    with_swipl(['-g', Goal, '-t', halt, Store], Pid, _, Out,
-               ( read_line_to_string(Out, "open"),
-                 catch(with_schema(locked, true), error(Formal, _), true),
+    while_open_elsewhere(Url, Pid,
+               ( catch(with_schema(locked, true), error(Formal, _), true),
                  with_schema(not_locked, true),
                  process_kill(Pid, kill),
                  process_wait(Pid, _),

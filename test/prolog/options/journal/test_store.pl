@@ -16,26 +16,8 @@
 
 :- begin_tests(store).
 
-test(committed_changes_are_restored) :-
-    with_tmp_dir(kept).
-
-kept(Dir) :-
-    with_store(Dir, commit([a-'kéy'-1-f(X, Y, X, Y), a-other-2-[], b-'kéy'-0-"é"])),
-    with_store(Dir, ( items(a, [K-1-F, other-2-[]]), items(b, [_-0-B]) )),
-    K == 'kéy',
-    F =@= f(X, Y, X, Y),
-    B == "é".
-
-test(uncommitted_changes_are_lost_as_a_whole,
-     [error(_)]) :-
-    with_tmp_dir(whole).
-
-whole(Dir) :-
-    with_store(Dir, commit([a-k-1-one])),
-    catch(with_store(Dir, commit([a-k-2-two, no_change])), error(E, C), true),
-    with_store(Dir, items(a, Items)),
-    Items == [k-1-one],
-    ( var(E) -> true ; throw(error(E, C)) ).
+test(store_keeps_what_is_committed, [forall(stored(What)), nondet]) :-
+    with_tmp_dir(store_keeps(What)).
 
 %   The longest keys, and characters of several bytes.
 
@@ -68,42 +50,12 @@ no_key(Key, 0) :-
 no_key(Half, 0) :-
     catch(atom_codes(Half, [0xdc00]), error(_, _), fail).   % fails in 10.1
 
-test(changes_are_applied_in_order) :-
-    with_tmp_dir(in_order).
-
-in_order(Dir) :-
-    with_store(Dir,
-               ( commit([a-k-1-x, a-k-2-y, a-k-3-z, a-l-1-w, drop(a, k, 2)]),
-                 commit([drop_below(a, k, 3), a-k-9-v, a-k-9-u]),
-                 commit([a-m-7-t, drop_all(a, m)]),
-                 items(a, Items) )),
-    Items == [l-1-w, k-3-z, k-9-u].
-
-test(long_terms_are_replaced_by_short_ones) :-
-    with_tmp_dir(long).
-
-long(Dir) :-
-    forall(member(Length, [10, 20000, 300000, 15000, 5]),
-           ( numlist(1, Length, List),
-             with_store(Dir, commit([a-k-0-List])),
-             with_store(Dir, items(a, [k-0-Found])),
-             Found == List )),
-    numlist(1, 100000, List),
-    with_store(Dir, ( commit([a-k-0-List]), commit([drop(a, k, 0)]) )),
-    with_store(Dir, items(a, [])).
-
 test(other_process_is_locked_out,
      [error(permission_error(open, journal, _))]) :-
     with_tmp_dir(locked).
 
 locked(Dir) :-
-    project_file('prolog/typhon/options/journal/store.pl', Store),
-    format(atom(Goal), 'journal_open(~q, normal), writeln(open), flush_output, \c
-            read(_)',
-           [Dir]),
-    with_swipl(['-g', Goal, '-t', halt, Store], _, _, Out,
-               ( read_line_to_string(Out, "open"),
-                 with_store(Dir, true) )).
+    while_open_elsewhere(Dir, _, with_store(Dir, true)).
 
 %   1 survives the end of the process, 2 a power failure as well.
 
