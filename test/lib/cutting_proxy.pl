@@ -7,7 +7,6 @@
             proxy_cut_after/3,          % +Proxy, +Direction, +Bytes
             proxy_hold/2,               % +Proxy, +Direction
             proxy_release/2,            % +Proxy, +Direction
-            proxy_delay/3,              % +Proxy, +Direction, +Seconds
             proxy_cuts/2                % +Proxy, -Count
           ]).
 
@@ -30,7 +29,6 @@ target, and `down`.
     proxy/2,                            % Proxy, Address
     cut_after/3,                        % Proxy, Direction, Bytes
     held/2,                             % Proxy, Direction
-    delay/3,                            % Proxy, Direction, Seconds
     cuts/2.                             % Proxy, Count
 
 %!  with_proxy(+Target, -Proxy, :Goal)
@@ -57,7 +55,6 @@ proxy_stop(Proxy) :-
     relay_stop(Proxy),
     retractall(cut_after(Proxy, _, _)),
     retractall(held(Proxy, _)),
-    retractall(delay(Proxy, _, _)),
     retractall(cuts(Proxy, _)).
 
 proxy_address(Proxy, Address) :-
@@ -94,14 +91,6 @@ proxy_release(Proxy, Direction) :-
 go_on(Pump) :-
     catch(thread_send_message(Pump, go), error(existence_error(_, _), _), true).
 
-%!  proxy_delay(+Proxy, +Direction, +Seconds) is det.
-%
-%   Wait so long before forwarding each piece.
-
-proxy_delay(Proxy, Direction, Seconds) :-
-    retractall(delay(Proxy, Direction, _)),
-    assertz(delay(Proxy, Direction, Seconds)).
-
 %!  proxy_cuts(+Proxy, -Count) is det.
 %
 %   Count connections were cut after a number of bytes.
@@ -128,8 +117,6 @@ pass(Proxy, Direction) :-
     (   held(Proxy, Direction)
     ->  thread_get_message(go),
         pass(Proxy, Direction)
-    ;   delay(Proxy, Direction, Seconds)
-    ->  sleep(Seconds)
     ;   true
     ).
 

@@ -1,6 +1,5 @@
 :- module(endpoint_peer,
           [ serve/1,                    % +Port
-            big_string/2,               % +Size, -String
             sleep_until/1               % +Time
           ]).
 
@@ -104,8 +103,6 @@ cross(Address, Size, N) :-
              endpoint_call(Address, string, Size, answer(Back), 120),
              string_length(Back, Size) )).
 
-%!  big_string(+Size, -String) is det.
-%
 %   Made of two halves: no longer string is made in between.
 
 big_string(0, "") :-

@@ -372,10 +372,6 @@ test(agent_lost_with_its_process, [cleanup(forget), true(H == There)]) :-
 here(Goal) :-
     setup_call_cleanup(host_start(alpha), once(Goal), host_stop(alpha)).
 
-remote_watcher(W, Peer) :-
-    peer_host(Peer, There),
-    watcher(W, [], [host(There)]).
-
 test(agents_and_watchers_in_each_process,
      [forall(member(Wh-Ah, [here-p1, p1-here, p1-p2, p1-p1]))]) :-
     no_leaks(with_peers([p1, p2],
