@@ -9,6 +9,7 @@
             state_size/2,               % +Module, -Facts
             with_settings/2,            % +Values, :Goal
             wait_until/2,               % :Goal, +Seconds
+            elapsed/2,                  % :Goal, -Seconds
             with_swipl/5,               % +Args, -Pid, -In, -Out, :Goal
             run_swipl/5,                % +Args, +Options, -Status, -Out, -Err
             wait_for_end/3,             % +Pid, +Seconds, -Status
@@ -29,6 +30,7 @@ the whole process, so no other test should run meanwhile.
 */
 
 :- use_module(slowness, [patience/2]).
+:- use_module(texts, [write_file/3]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(filesex),
@@ -54,6 +56,7 @@ the whole process, so no other test should run meanwhile.
     no_leaks(0),
     with_settings(+, 0),
     wait_until(0, +),
+    elapsed(0, -),
     with_swipl(+, -, -, -, 0).
 
 :- dynamic root/1.
@@ -142,10 +145,7 @@ make_tmp_dir(Dir) :-
 %   File becomes a program: a shell script with Line.
 
 shell_script(File, Line) :-
-    setup_call_cleanup(
-        open(File, write, Out),
-        format(Out, "#!/bin/sh~n~s~n", [Line]),
-        close(Out)),
+    write_file(File, "#!/bin/sh~n~s~n", [Line]),
     chmod(File, +x).
 
 %!  with_settings(+Values, :Goal) is semidet.
@@ -187,6 +187,16 @@ poll(Goal, Pause, Deadline) :-
         poll(Goal, Longer, Deadline)
     ;   throw(error(timeout_error(wait_until, Goal), _))
     ).
+
+%!  elapsed(:Goal, -Seconds) is semidet.
+%
+%   As once(Goal), which takes Seconds.
+
+elapsed(Goal, Seconds) :-
+    get_time(T0),
+    once(Goal),
+    get_time(T1),
+    Seconds is T1-T0.
 
                 /*******************************
                 *             LEAKS            *

@@ -3,6 +3,7 @@
 % All that writes a file leaves alone what is another thing than its output.
 
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/texts').
 :- use_module('../../../lib/fixtures').
 :- use_module('../../../lib/authority').
 :- use_module(library(debug), [assertion/1]).
@@ -132,6 +133,4 @@ signed(Authority) :-
 
 file_with(Dir, Name, Text, File) :-
     directory_file_path(Dir, Name, File),
-    setup_call_cleanup(open(File, write, Out, [encoding(utf8)]),
-                       write(Out, Text),
-                       close(Out)).
+    write_file(File, Text).

@@ -1,5 +1,6 @@
 :- module(test_private, []).
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/texts').
 :- use_module('../../../lib/fixtures').
 :- use_module('../../../lib/pages', [with_page/3]).
 :- use_module('../../../../prolog/typhon/kernel/base/private').
@@ -31,7 +32,7 @@ in(Dir, Name, File) :-
     directory_file_path(Dir, Name, File).
 
 put(File, Text) :-
-    setup_call_cleanup(open(File, write, Out), write(Out, Text), close(Out)).
+    write_file(File, Text).
 
 text(File, Text) :-
     read_file_to_string(File, Text, []).

@@ -1,5 +1,6 @@
 :- module(test_reports, []).
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/texts').
 :- use_module('../../../lib/fixtures').
 :- use_module(library(plunit)).
 :- use_module(library(aggregate), [aggregate_all/3]).
@@ -48,7 +49,7 @@ test(name_of_a_group_is_data, [nondet, Lines == true]) :-
     capturing(( report(warning, k, Bad, m(k)), report(warning, k, Bad, m(k)),
                 reports_end ), Messages),
     once(member(_-typhon(more(K, Groups)), Messages)),
-    message_to_codes_safe(typhon(more(K, Groups)), Text),
+    message_text(typhon(more(K, Groups)), Text),
     (   sub_string(Text, _, _, _, "\e")
     ->  Lines = Text
     ;   Lines = true
@@ -66,11 +67,6 @@ reports(Count, Group) :-
     forall(between(1, Count, _),
            ( random_between(1, 5, K),
              report(warning, k(K), Group, m(K)) )).
-
-message_to_codes_safe(Message, Text) :-
-    phrase(prolog:message(Message), Lines),
-    with_output_to(string(Text),
-                   print_message_lines(current_output, '', Lines)).
 
 %   An agent sends to no agent, and to one that does not understand, as fast as
 %   its quotas let it.

@@ -2,6 +2,7 @@
 :- use_module(library(plunit)).
 :- use_module(library(prolog_wrap), [unwrap_predicate/2, wrap_predicate/4]).
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/texts').
 :- use_module('../../../lib/fixtures').
 :- use_module(library(aggregate)).
 :- use_module(library(apply)).
@@ -27,22 +28,13 @@ in_tmp_file(Lines, Goal) :-
 
 in_dir(Lines, Goal, Dir) :-
     directory_file_path(Dir, 'facts.pl', File),
-    setup_call_cleanup(open(File, write, Out),
-                       forall(member(L, Lines), format(Out, '~w~n', [L])),
-                       close(Out)),
+    atomic_list_concat(Lines, '\n', Text),
+    write_file(File, '~w~n', [Text]),
     call(Goal, File).
 
 stays(Clauses, Agent) :-
     create([on_message(_, _)|Clauses], Agent),
     wait_state(Agent, resident).
-
-:- meta_predicate elapsed(0, -).
-
-elapsed(Goal, Seconds) :-
-    get_time(T0),
-    call(Goal),
-    get_time(T1),
-    Seconds is T1-T0.
 
 :- begin_tests(host_options).
 

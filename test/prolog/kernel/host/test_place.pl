@@ -3,6 +3,7 @@
 % Files in the place of a host that change while agents are there.
 
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/texts').
 :- use_module('../../../lib/fixtures').
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex),
@@ -17,7 +18,7 @@
 
 write_place(Dir, Name, Age, Text, File) :-
     directory_file_path(Dir, Name, File),
-    setup_call_cleanup(open(File, write, Out), write(Out, Text), close(Out)),
+    write_file(File, Text),
     get_time(Now),
     Then is Now-Age,
     set_time_file(File, _, [modified(Then)]).

@@ -1,6 +1,7 @@
 :- module(test_agent, []).
 :- use_module(library(plunit)).
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/texts').
 :- use_module('../../../lib/fixtures').
 :- use_module(library(apply)).
 :- use_module(library(filesex)).
@@ -41,16 +42,6 @@ ends(Clauses, Options, Outcome, Messages) :-
 
 gone(Agent) :-
     \+ agent_property(Agent, state(_)).
-
-elapsed(Goal, Seconds) :-
-    get_time(T0),
-    call(Goal),
-    get_time(T1),
-    Seconds is T1-T0.
-
-                /*******************************
-                *             BIRTH            *
-                *******************************/
 
 :- begin_tests(birth).
 
@@ -190,10 +181,6 @@ test(only_agents_have_a_self,
 
 :- end_tests(birth).
 
-                /*******************************
-                *             MOVES            *
-                *******************************/
-
 :- begin_tests(moves).
 
 test(move_and_continue, F == [s(1),s(2),s(3)]) :-
@@ -309,10 +296,6 @@ test(thousand_round_trips_without_pause, O == done) :-
                  joined(A, O) )).
 
 :- end_tests(moves).
-
-                /*******************************
-                *            CLONES            *
-                *******************************/
 
 :- begin_tests(clones).
 
@@ -447,10 +430,6 @@ test(clone_order_is_refused, error(move_refused(_, capacity))) :-
                  agent_clone(A, _) )).
 
 :- end_tests(clones).
-
-                /*******************************
-                *        SLEEP, RECEIVE        *
-                *******************************/
 
 :- begin_tests(waiting).
 
@@ -619,10 +598,6 @@ at_rest(Agent) :-
     typhon_mailbox:mail_list(Agent, []).
 
 :- end_tests(waiting).
-
-                /*******************************
-                *         THE END, JOIN        *
-                *******************************/
 
 :- begin_tests(end).
 
@@ -896,10 +871,6 @@ test(order_is_taken_before_a_message, true(H == B)) :-
 
 :- end_tests(orders).
 
-                /*******************************
-                *           PROPERTIES         *
-                *******************************/
-
 :- begin_tests(agent_property).
 
 test(all, true(Ps =@= [ facts([s(1)]), goals([receive(_-go),foo]), home(A),
@@ -978,11 +949,8 @@ payload_file(Goal) :-
 
 payload_in(Goal, Dir) :-
     directory_file_path(Dir, 'tools.pl', File),
-    setup_call_cleanup(
-        open(File, write, Out),
-        format(Out, ':- payload(tools, [provides([p/1])]).~n\c
-                     p(1).~np(2).~nq(X) :- p(X), X > 1.~n', []),
-        close(Out)),
+    write_file(File, ':- payload(tools, [provides([p/1])]).~n\c
+                      p(1).~np(2).~nq(X) :- p(X), X > 1.~n', []),
     call(Goal, File).
 
 :- begin_tests(payloads).
@@ -1291,8 +1259,7 @@ test(foreign_file, error(domain_error(restore_point, _))) :-
 
 foreign(Dir) :-
     directory_file_path(Dir, point, File),
-    setup_call_cleanup(open(File, write, Out), format(Out, 'foo.~n', []),
-                       close(Out)),
+    write_file(File, 'foo.~n', []),
     with_hosts([alpha], agent_load(File, _)).
 
 test(no_file, error(existence_error(source_sink, _))) :-

@@ -1,5 +1,6 @@
 :- module(test_declared_facts, []).
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/texts').
 :- use_module('../../../lib/fixtures').
 :- use_module('../../../lib/peers').
 :- use_module(library(plunit)).
@@ -20,10 +21,7 @@ refused(Goal, Text) :-
     catch(( Goal, Error = none ), error(Formal, Context),
           Error = error(Formal, Context)),
     assertion(Error = error(existence_error(state, _, _), _)),
-    phrase('$messages':translate_message(Error), Lines),
-    with_output_to(string(Text),
-                   ( current_output(Out),
-                     print_message_lines(Out, '', Lines) )).
+    message_text(Error, Text).
 
 means(Goal, Part) :-
     refused(Goal, Text),

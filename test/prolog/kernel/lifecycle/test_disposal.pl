@@ -57,12 +57,6 @@ ending_when_asked(Clauses, Agent, Goal) :-
         thread_join(Ends, Ended)),
     assertion(Ended == true).
 
-took(Goal, Seconds) :-
-    get_time(T0),
-    once(Goal),
-    get_time(T1),
-    Seconds is T1-T0.
-
 gone(Agent) :-
     \+ agent_property(Agent, state(_)).
 
@@ -89,7 +83,7 @@ test(agent_that_ends_by_itself, Ms == []) :-
                   with_hosts([alpha],
                              ( ending_when_asked(
                                    [(main :- over -> true ; main)], A,
-                                   took(capturing(agent_dispose(A), Ms),
+                                   elapsed(capturing(agent_dispose(A), Ms),
                                         Seconds)),
                                Seconds < 15,
                                agent_join(A, done, 5) ))).
@@ -116,7 +110,7 @@ test(disposing_agent_does_not_wait, Ms == []) :-
                                capturing(( create([ (main :- s(X),
                                                      typhon:agent_dispose(X)) ],
                                                   B, [facts([s(A)])]),
-                                           took(joined(B, done), Seconds) ),
+                                           elapsed(joined(B, done), Seconds) ),
                                          Ms),
                                Seconds < 15,
                                agent_dispose(A, [force(0)]) ))).
@@ -155,7 +149,7 @@ test(resting_agent) :-
     with_hosts([alpha],
                ( create([(main :- receive(_))], A),
                  wait_state(A, waiting),
-                 took(agent_dispose(A, [force(10)]), Seconds),
+                 elapsed(agent_dispose(A, [force(10)]), Seconds),
                  Seconds < 5,
                  gone(A) )).
 test(constantly_hopping_agent) :-

@@ -1,5 +1,6 @@
 :- module(test_faulty, []).
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/texts').
 :- use_module('../../../lib/fixtures').
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
@@ -49,23 +50,16 @@ prints(Lines, Text) :-
                             capturing(( agent_create(File, A,
                                                      [host(alpha)]),
                                         joined(A, _) ), Messages))),
-    once(message_text(Messages, Text)).
+    once(printed_text(Messages, Text)).
 
-message_text(Messages, Text) :-
+printed_text(Messages, Text) :-
     member(Kind-Message, Messages),
     memberchk(Kind, [warning,error]),
     Message = typhon(_),
     !,
-    message_to_lines(Message, Line),
+    message_text(Message, Line),
     sub_string(Line, Before, _, _, " at "),
     sub_string(Line, Before, _, 0, Text).
-
-message_to_lines(Message, Text) :-
-    phrase('$messages':translate_message(Message), Lines),
-    with_output_to(string(Text),
-                   ( current_output(Out),
-                     print_message_lines(Out, '', Lines) )),
-    !.
 
 %   faulty(+Clauses, -Agent): an agent that has become faulty on alpha.
 
@@ -87,10 +81,6 @@ stands(Agent, Host) :-
 
 load(Host, Load) :-
     host_property(Host, load(Load)).
-
-                /*******************************
-                *          WHERE IT WAS        *
-                *******************************/
 
 :- begin_tests(fault_locations).
 
@@ -179,10 +169,7 @@ test(clause_in_an_included_file, true(P = inc:2)) :-
                    'main :- p.' ], File,
                  ( file_directory_name(File, Dir),
                    directory_file_path(Dir, 'inc.pl', Inc),
-                   setup_call_cleanup(
-                       open(Inc, write, Out),
-                       format(Out, "~np :- move(beta), fail.~n", []),
-                       close(Out)),
+                   write_file(Inc, "~np :- move(beta), fail.~n", []),
                    on([alpha,beta],
                       ( agent_create(File, A, [host(alpha)]),
                         joined(A, failed),
@@ -231,10 +218,6 @@ from_in(Text0, Text) :-
     sub_string(Text0, Before, _, _, ", in "),
     !,
     sub_string(Text0, Before, _, 0, Text).
-
-                /*******************************
-                *         KEPT AS IT WAS       *
-                *******************************/
 
 :- begin_tests(faulty_agents).
 
@@ -401,10 +384,6 @@ test(order_before_the_end_is_executed, true(O == failed)) :-
 
 :- end_tests(faulty_agents).
 
-                /*******************************
-                *           IN WORDS           *
-                *******************************/
-
 :- begin_tests(printable_outcomes).
 
 test(attributed_variable,
@@ -439,10 +418,6 @@ test(error_with_an_unprintable_term,
 
 :- end_tests(printable_outcomes).
 
-                /*******************************
-                *           MESSAGES           *
-                *******************************/
-
 :- begin_tests(failing_on_message).
 
 after_mail(Clauses, Message, Told) :-
@@ -462,14 +437,14 @@ test(clause_fails, true(Text == " at alpha (hop 0): on_message/2 for ask(1) \c
                              was s(1), in on_message/2, clause 2\n")) :-
     after_mail([ on_message(_, say),
                  (on_message(_, ask(X)) :- s(X), move(beta)) ], ask(1), T),
-    once(message_text(T, Text)).
+    once(printed_text(T, Text)).
 test(clause_without_a_stop_fails,
      true(Text == " at alpha (hop 0): on_message/2 for ask(1) from user \c
                    failed: the goal that failed last was s(1), in \c
                    on_message/2, clause 1\n")) :-
     after_mail([(on_message(_, ask(X)) :- integer(X), s(X), true)], ask(1),
                T),
-    once(message_text(T, Text)).
+    once(printed_text(T, Text)).
 
 :- end_tests(failing_on_message).
 

@@ -1,6 +1,7 @@
 :- module(test_program, []).
 :- use_module(library(plunit)).
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/texts').
 :- use_module('../../../lib/fixtures').
 :- use_module(library(filesex)).
 :- use_module(library(lists)).
@@ -46,10 +47,8 @@ path(Dir, Name, File) :-
 
 write_lines(Dir, Name, Lines) :-
     path(Dir, Name, File),
-    setup_call_cleanup(open(File, write, Out, [encoding(utf8)]),
-                       forall(member(Line, Lines),
-                              format(Out, '~w~n', [Line])),
-                       close(Out)).
+    atomic_list_concat(Lines, '\n', Text),
+    write_file(File, '~w~n', [Text]).
 
 %   problem(+Lines, -Formal, -Line, -Advice): the error that a program of Lines
 %   raises.
@@ -84,12 +83,7 @@ payload(File) :-
     payload_load(File, _).
 
 text_of(Error, Text) :-
-    message_to_codes(Error, Text).
-
-message_to_codes(Error, Text) :-
-    phrase('$messages':translate_message(Error), Lines),
-    with_output_to(string(Text),
-                   print_message_lines(current_output, '', Lines)).
+    message_text(Error, Text).
 
 contains(Advice, Words) :-
     assertion(sub_atom(Advice, _, _, _, Words)).
@@ -510,8 +504,7 @@ another(Dir, File) :-
     loads(File, p(1)),
     path(Dir, b, Included),
     file_name_extension(Base, pl, Included),
-    setup_call_cleanup(open(Base, write, Out), format(Out, 'p(4).~n', []),
-                       close(Out)),
+    write_file(Base, 'p(4).~n', []),
     loads(File, p(4)).
 
 many(Dir, _) :-
@@ -561,10 +554,6 @@ test(missing_file, error(existence_error(source_sink, no_such_census))) :-
     agent_check(no_such_census).
 
 :- end_tests(agent_check).
-
-                /*******************************
-                *     STATE THAT IS REWRITTEN  *
-                *******************************/
 
 :- begin_tests(state).
 

@@ -1,5 +1,6 @@
 :- module(test_within, []).
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/texts').
 :- use_module('../../../lib/fixtures').
 :- use_module(library(apply), [include/3, maplist/2, maplist/3]).
 :- use_module(library(lists), [member/2, numlist/3]).
@@ -103,11 +104,8 @@ test(order_that_cannot_be_executed, true(At-Ended == alpha-disposed)) :-
 
 device(At, Dir) :-
     atom_concat(Dir, '/place.pl', File),
-    setup_call_cleanup(
-        open(File, write, Out),
-        format(Out, ':- dynamic device/1.~n\c
-:- current_output(S), assertz(device(S)).~n', []),
-        close(Out)),
+    write_file(File, ':- dynamic device/1.~n\c
+  :- current_output(S), assertz(device(S)).~n', []),
     with_hosts([alpha-[consult(File)],beta-[consult(File)]],
                ( create([ (main :- assertz((look(ok) :- device(_))), look(_),
                                    move(beta)),

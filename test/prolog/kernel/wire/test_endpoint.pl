@@ -185,10 +185,6 @@ hold_once :-
     ;   true
     ).
 
-		 /*******************************
-		 *            TESTS             *
-		 *******************************/
-
 :- begin_tests(two_processes).
 
 test(call, Answer == foo(1, "two", [3.0])) :-

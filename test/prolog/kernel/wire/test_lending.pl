@@ -105,10 +105,6 @@ gone(Thread) :-
           error(existence_error(_, _), _),
           true).
 
-                /*******************************
-                *             TESTS            *
-                *******************************/
-
 :- begin_tests(lending, [cleanup(no_threads_left)]).
 
 test(frames_are_handled_by_the_reading_thread, T1 == T2) :-

@@ -82,10 +82,7 @@ kill(Address) :-
     process_wait(Pid, _).
 
 within(Seconds, Goal) :-
-    get_time(T0),
-    call(Goal),
-    get_time(T1),
-    Took is T1-T0,
+    elapsed(Goal, Took),
     assertion(Took < Seconds).
 
 unreachable(Address) :-
@@ -260,10 +257,6 @@ connections(Threads) :-
 
 :- end_tests(simultaneous_connections).
 
-                /*******************************
-                *        HELD REQUESTS         *
-                *******************************/
-
 :- begin_tests(requests_wait_for_the_connection).
 
 test(requests_are_sent_in_order, Notes == Numbers) :-
@@ -388,10 +381,6 @@ cross(Size, N, Count) :-
 
 :- end_tests(large_frames).
 
-                /*******************************
-                *         PEERS THAT GO        *
-                *******************************/
-
 :- begin_tests(disconnected_peers).
 
 test(disconnected_peers_leave_no_queue, Queues == Before) :-
@@ -460,10 +449,6 @@ sessions(Count) :-
     length(Set, Count).
 
 :- end_tests(disconnected_peers).
-
-                /*******************************
-                *            COUNTS            *
-                *******************************/
 
 :- begin_tests(flushes).
 

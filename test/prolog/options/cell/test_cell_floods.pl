@@ -1,5 +1,6 @@
 :- module(test_cell_floods, []).
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/texts').
 :- needs([cells]).
 :- use_module('../../../lib/cell_inmate').
 :- use_module('../../../lib/fixtures').
@@ -136,12 +137,9 @@ sent_late(Outcome, There) :-
 
 killed_while_served(Outcome, Beside, Dir) :-
     directory_file_path(Dir, place, File),
-    setup_call_cleanup(
-        open(File, write, Out),
-        format(Out, ":- service(slow/0).~n\c
-                     slow :- thread_send_message(test_cell_slow, begun), \c
-                             thread_get_message(test_cell_slow, go).~n", []),
-        close(Out)),
+    write_file(File, ":- service(slow/0).~n\c
+                      slow :- thread_send_message(test_cell_slow, begun), \c
+                              thread_get_message(test_cell_slow, go).~n", []),
     setup_call_cleanup(
         message_queue_create(Queue, [alias(test_cell_slow)]),
         with_inmates([consult(File)], [seconds(20)],

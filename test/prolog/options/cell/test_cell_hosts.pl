@@ -1,5 +1,6 @@
 :- module(test_cell_hosts, []).
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/texts').
 :- use_module('../../../lib/fixtures').
 :- use_module(library(plunit)).
 :- use_module(library(lists), [member/2]).
@@ -77,7 +78,3 @@ unguarded(Host, Outcome) :-
 error_text(Formal, Text) :-
     message_text(error(Formal, _), Text).
 
-message_text(Message, Text) :-
-    '$messages':translate_message(Message, Lines, []),
-    with_output_to(string(Text),
-                   print_message_lines(current_output, '', Lines)).

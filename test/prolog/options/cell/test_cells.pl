@@ -1,5 +1,6 @@
 :- module(test_cells, []).
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/texts').
 :- needs([cells]).
 :- use_module('../../../lib/fixtures').
 :- use_module('../../../lib/peers').
@@ -258,10 +259,7 @@ used_cells(Count) :-
 bridge_called(Calls, Ended, Passed, Dir) :-
     directory_file_path(Dir, place, File),
     directory_file_path(Dir, audit, Audit),
-    setup_call_cleanup(
-        open(File, write, Out),
-        format(Out, ":- service(twice/2).~n", []),
-        close(Out)),
+    write_file(File, ":- service(twice/2).~n", []),
     with_hosts([ c-[ policy(guarded), cell(host), consult(File), audit(Audit),
                      quota([calls(twice/2, 3)]) ] ],
                ( service_begin(bridge, c, [twice/2,thrice/2], test_cells, true),
@@ -281,19 +279,12 @@ thrice(X, Y) :- Y is 3*X.
 
 served(Result, Dir) :-
     directory_file_path(Dir, place, File),
-    setup_call_cleanup(
-        open(File, write, Out),
-        format(Out, ":- service(even/1).~neven(2).~neven(4).~nodd(1).~n", []),
-        close(Out)),
+    write_file(File, ":- service(even/1).~neven(2).~neven(4).~nodd(1).~n", []),
     with_hosts([ c-[policy(guarded), cell(host), consult(File)] ],
                result([ (main :- findall(N, even(N), Ns), G = odd(_),
                                  ( catch(G, error(_, _), fail) -> R = yes
                                  ; R = no ),
                                  result(Ns-R)) ], Result)).
-
-                /*******************************
-                *          PROCESSES           *
-                *******************************/
 
 :- begin_tests(cell_processes).
 
@@ -434,11 +425,8 @@ killed(Before, Kills, How-Count, Dir) :-
     atomic_list_concat([Dir, /, p], J),
     atomic_list_concat([Dir, /, mark], Mark),
     atomic_list_concat([Dir, /, place], Place),
-    setup_call_cleanup(
-        open(Place, write, Out),
-        format(Out, ":- service(mark/0).~n\c
-                     mark :- open(~q, write, Out), close(Out).~n", [Mark]),
-        close(Out)),
+    write_file(Place, ":- service(mark/0).~n\c
+                       mark :- open(~q, write, Out), close(Out).~n", [Mark]),
     Works = clauses([ (:- agent(works, [])),
                       (main :- Before, leave(f), work, result(done)),
                       (work :- between(1, 5 000 000, X), X >= 5 000 000, !) ]),

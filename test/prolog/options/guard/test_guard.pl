@@ -1,6 +1,7 @@
 :- module(test_guard, []).
 :- use_module('../../../lib/allowed_goals').
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/texts').
 :- use_module('../../../lib/fixtures').
 :- use_module(library(plunit)).
 :- use_module(library(apply), [maplist/3]).
@@ -334,11 +335,8 @@ test(no_such_policy, error(existence_error(_, _))) :-
 
 place_file(Dir, File) :-
     directory_file_path(Dir, 'place.pl', File),
-    setup_call_cleanup(
-        open(File, write, Out),
-        format(Out, ":- service(open/1).~n:- dynamic open/1.~n~w",
-               ["open(1).\nopen(2).\nhidden(1).\n"]),
-        close(Out)).
+    write_file(File, ":- service(open/1).~n:- dynamic open/1.~n~w",
+                     ["open(1).\nopen(2).\nhidden(1).\n"]).
 
 places(Rs, Dir) :-
     place_file(Dir, File),
@@ -383,10 +381,7 @@ changes_of_services(Rs-Left, Dir) :-
 
 by_rules([O1,O2], Dir) :-
     directory_file_path(Dir, rules, File),
-    setup_call_cleanup(
-        open(File, write, Out),
-        format(Out, "allow(current_op/3).~nrefuse(send/2).~n", []),
-        close(Out)),
+    write_file(File, "allow(current_op/3).~nrefuse(send/2).~n", []),
     with_hosts([g-[policy(File), cell(none)]],
                ( outcome([(main :- once(current_op(_, _, mod)))], O1),
                  catch(outcome([(main :- send(user, x))], O2),

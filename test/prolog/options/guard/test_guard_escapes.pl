@@ -1,6 +1,7 @@
 :- module(test_guard_escapes, []).
 :- use_module('../../../lib/allowed_goals').
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/texts').
 :- use_module('../../../lib/fixtures').
 :- use_module(library(plunit)).
 :- use_module(library(filesex), [directory_file_path/3]).
@@ -248,9 +249,7 @@ test(destructive_assignment_is_refused, Through == []) :-
 
 changed(Clauses, Name, Escaped-Name, Dir) :-
     directory_file_path(Dir, rules, File),
-    setup_call_cleanup(open(File, write, Out),
-                       format(Out, "allow(setarg/3).~n", []),
-                       close(Out)),
+    write_file(File, "allow(setarg/3).~n", []),
     with_hosts([g-[policy(File), cell(none)], t],
                capturing(escaped(outcome(Clauses, _), Escaped), _)).
 
@@ -392,20 +391,14 @@ comes_with(Clause) :-
 
 service_rules(R, Dir) :-
     directory_file_path(Dir, 'place.pl', File),
-    setup_call_cleanup(open(File, write, Out),
-                       format(Out, ":- service(sv/1).~n\c
-                                    :- dynamic sv/1.~n\c
-                                    sv(X) => X = kept.~n", []),
-                       close(Out)),
+    write_file(File, ":- service(sv/1).~n\c
+                      :- dynamic sv/1.~n\c
+                      sv(X) => X = kept.~n", []),
     with_hosts([g-[policy(guarded), cell(none), consult(File)]],
                ( capturing(outcome([(main :- sv(_), C = (sv(_) => _),
                                              retract(C))], _), _),
                  create([(main :- sv(X), result(X))], A, [host(g)]),
                  agent_result(A, R, 10) )).
-
-                /*******************************
-                *       PROGRAMS OF PEERS      *
-                *******************************/
 
 :- begin_tests(programs_of_peers).
 
@@ -442,10 +435,8 @@ comes(by_order).
 
 loads_library(How, Program, Sent, Escaped, Dir) :-
     directory_file_path(Dir, 'library.pl', File),
-    setup_call_cleanup(open(File, write, Out),
-                       format(Out, ":- module(harm, []).~n:- ~q.~n",
-                              [flag(typhon_guard_escaped, _, 1)]),
-                       close(Out)),
+    write_file(File, ":- module(harm, []).~n:- ~q.~n",
+                     [flag(typhon_guard_escaped, _, 1)]),
     Program = program(x, [], [File-all], [(main :- true)]),
     typhon_programs:program_hash(Program, Hash),
     with_hosts([g-[policy(guarded), cell(none)]],
@@ -791,10 +782,7 @@ test(library_typhon_is_the_vocabulary,
 
 read_by_agents(Through, Dir) :-
     directory_file_path(Dir, secret, File),
-    setup_call_cleanup(open(File, write, Out),
-                       format(Out, ":- payload(x, [provides([s/1])]).~ns(1).~n",
-                              []),
-                       close(Out)),
+    write_file(File, ":- payload(x, [provides([s/1])]).~ns(1).~n", []),
     findall(Goal, reads(Goal, File), Goals),
     with_hosts([g-[policy(guarded), cell(none)], t],
                capturing(let_through(Goals, Through), _)).

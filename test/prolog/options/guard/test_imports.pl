@@ -1,5 +1,6 @@
 :- module(test_imports, []).
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/texts').
 :- use_module('../../../lib/fixtures').
 :- use_module('../../../lib/peers').
 :- use_module(library(plunit)).
@@ -49,12 +50,9 @@ in_folder(Goal, Dir) :-
 
 library_written(Path) :-
     atom_concat(Path, '.pl', File),
-    setup_call_cleanup(
-        open(File, write, Out),
-        format(Out, ':- module(~q, [given/1, op(700, xfx, ===>)]).~n\c
-                     :- flag(typhon_imports, N, N+1).~n\c
-                     given(free).~n', [Path]),
-        close(Out)).
+    write_file(File, ':- module(~q, [given/1, op(700, xfx, ===>)]).~n\c
+                      :- flag(typhon_imports, N, N+1).~n\c
+                      given(free).~n', [Path]).
 
 unloaded(Dir) :-
     forall(( source_file(File), sub_atom(File, 0, _, _, Dir) ),
@@ -308,11 +306,8 @@ test(reading_loads_nothing, Loads-Op == 0-'===>'(a, b)) :-
 read_with_operator(Op) :-
     folder(Dir),
     directory_file_path(Dir, 'agent.pl', File),
-    setup_call_cleanup(
-        open(File, write, Out),
-        format(Out, ':- agent(a).~n:- use_module(library(free)).~nmain.~n\c
-                     a ===> b.~nsee(X) :- given(X).~n', []),
-        close(Out)),
+    write_file(File, ':- agent(a).~n:- use_module(library(free)).~nmain.~n\c
+                      a ===> b.~nsee(X) :- given(X).~n', []),
     typhon_programs:program_read(File, program(_, _, _, Clauses), _, _, _, _,
                                  _),
     append(_, [Op,_], Clauses),

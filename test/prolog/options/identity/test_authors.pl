@@ -3,6 +3,7 @@
 % Hosts that admit only programs signed by certain authors.
 
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/texts').
 :- use_module('../../../lib/authority').
 :- use_module('../../../lib/peers').
 :- use_module(library(filesex), [directory_file_path/3]).
@@ -19,12 +20,9 @@
 program(Authority, Name, File) :-
     atom_concat(Name, '.pl', Base),
     directory_file_path(Authority, Base, File),
-    setup_call_cleanup(
-        open(File, write, Out),
-        format(Out, ':- agent(~w, [state([to/1])]).~n\c
-                     main :- to(Host), move(Host), here(H), ~w(H).~n\c
-                     ~w(_).~n', [Name, Name, Name]),
-        close(Out)).
+    write_file(File, ':- agent(~w, [state([to/1])]).~n\c
+                      main :- to(Host), move(Host), here(H), ~w(H).~n\c
+                      ~w(_).~n', [Name, Name, Name]).
 
 :- meta_predicate with_choosy_host(+, 1).
 
@@ -134,10 +132,7 @@ outcome(Goal, Outcome) :-
 signed_resident(Authority, Name, File) :-
     atom_concat(Name, '.pl', Base),
     directory_file_path(Authority, Base, File),
-    setup_call_cleanup(
-        open(File, write, Out),
-        format(Out, ':- agent(~w, []).~non_message(_, _).~n', [Name]),
-        close(Out)),
+    write_file(File, ':- agent(~w, []).~non_message(_, _).~n', [Name]),
     keys_sign_file(File, alice, Authority).
 
 test(hosts_and_revoked_authors_cannot_sign) :-
@@ -175,27 +170,21 @@ test(authors_need_keys, error(existence_error(host_option, tls))) :-
 payload(Authority, Name, File) :-
     atom_concat(Name, '.pl', Base),
     directory_file_path(Authority, Base, File),
-    setup_call_cleanup(
-        open(File, write, Out),
-        format(Out, ':- payload(~w, [provides([~w/1, rule/1])]).~n\c
-                     ~w(1).~nrule(X) :- X, findall(Y, X, _), \\+ Y.~n\c
-                     rule(X) :- call(X, 1), ~w(X).~n',
-               [Name, Name, Name, Name]),
-        close(Out)).
+    write_file(File, ':- payload(~w, [provides([~w/1, rule/1])]).~n\c
+                      ~w(1).~nrule(X) :- X, findall(Y, X, _), \\+ Y.~n\c
+                      rule(X) :- call(X, 1), ~w(X).~n',
+                     [Name, Name, Name, Name]).
 
 %   The program is signed; its payload may be.
 
 carrier(Authority, File) :-
     directory_file_path(Authority, 'carrier.pl', File),
-    setup_call_cleanup(
-        open(File, write, Out),
-        format(Out, ':- agent(carrier, [state([to/1])]).~n\c
-                     on_message(_, go(Host)) :- move(Host).~n\c
-                     on_message(_, do(Goal)) :- call(Goal).~n\c
-                     on_message(_, try(Goal)) :-~n  \c
-                       catch(Goal, error(Formal, _), true), result(Formal).~n',
-               []),
-        close(Out)),
+    write_file(File, ':- agent(carrier, [state([to/1])]).~n\c
+                      on_message(_, go(Host)) :- move(Host).~n\c
+                      on_message(_, do(Goal)) :- call(Goal).~n\c
+                      on_message(_, try(Goal)) :-~n  \c
+                        catch(Goal, error(Formal, _), true), result(Formal).~n',
+                     []),
     keys_sign_file(File, alice, Authority).
 
 payloads_of(Authority) :-

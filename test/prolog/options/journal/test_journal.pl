@@ -1,4 +1,5 @@
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/texts').
 :- use_module('../../../lib/peers').
 :- use_module(library(plunit)).
 :- use_module(library(lists), [member/2]).
@@ -105,10 +106,8 @@ test(tuples_and_delivered_payloads_are_restored) :-
 
 facts(Dir) :-
     atom_concat(Dir, '/greeting.pl', File),
-    setup_call_cleanup(open(File, write, Out),
-                       format(Out, ':- payload(greeting, [provides([hi/1])]).~n\c
-                                    hi(there).~n', []),
-                       close(Out)),
+    write_file(File, ':- payload(greeting, [provides([hi/1])]).~n\c
+                      hi(there).~n', []),
     atom_concat(Dir, '/journal', Journal),
     started(Journal,
         ( remote(alpha, ( leave(a(1)), leave(a(2)), leave(a(2)),

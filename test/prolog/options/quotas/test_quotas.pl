@@ -428,10 +428,6 @@ left_before(O-Taken, Dir) :-
 leaver(N, A) :-
     create([ (main :- forall(between(1, N, X), leave(f(X)))) ], A).
 
-                /*******************************
-                *          WHAT IT IS          *
-                *******************************/
-
 :- begin_tests(invalid_quotas).
 
 test(unknown_scope, error(domain_error(quota, owner(cells(1))))) :-

@@ -4,6 +4,7 @@
 % level.
 
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/texts').
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [last/2, member/2]).
 :- use_module(library(plunit)).
@@ -88,14 +89,11 @@ with_named_program(File, Goal) :-
 
 named_program(File, Goal, Dir) :-
     directory_file_path(Dir, 'tourist.pl', File),
-    setup_call_cleanup(
-        open(File, write, Out),
-        format(Out, ":- agent(tourist, []).~n~n\c
-                     main :- receive(_-go(Hosts)), tour(Hosts),~n\c
-                             home(Home), move(Home).~n~n\c
-                     tour([]).~n\c
-                     tour([Host|Hosts]) :- move(Host), tour(Hosts).~n", []),
-        close(Out)),
+    write_file(File, ":- agent(tourist, []).~n~n\c
+                      main :- receive(_-go(Hosts)), tour(Hosts),~n\c
+                              home(Home), move(Home).~n~n\c
+                      tour([]).~n\c
+                      tour([Host|Hosts]) :- move(Host), tour(Hosts).~n", []),
     once(Goal).
 
 :- begin_tests(listing).

@@ -337,10 +337,6 @@ test(virtual_runs_repeat) :-
 
 :- end_tests(watch).
 
-                /*******************************
-                *       OTHER PROCESSES        *
-                *******************************/
-
 :- begin_tests(watch_other_processes).
 
 test(network_of_processes) :-
