@@ -4,6 +4,7 @@
             missing/2,                  % +Names, -Packages
             project_file/2,             % +Relative, -Absolute
             with_tmp_dir/1,             % :Goal
+            with_tmp_dir/2,             % -Dir, :Goal
             shell_script/2,             % +File, +Line
             no_leaks/1,                 % :Goal
             state_size/2,               % +Module, -Facts
@@ -53,6 +54,7 @@ the whole process, so no other test should run meanwhile.
 
 :- meta_predicate
     with_tmp_dir(1),
+    with_tmp_dir(-, 0),
     no_leaks(0),
     with_settings(+, 0),
     wait_until(0, +),
@@ -127,13 +129,17 @@ project_file(Relative, Absolute) :-
                 *******************************/
 
 %!  with_tmp_dir(:Goal) is semidet.
+%!  with_tmp_dir(-Dir, :Goal) is semidet.
 %
-%   Calls Goal(Dir) once; the directory Dir is removed afterwards.
+%   Calls Goal(Dir), or Goal, once; the directory Dir is removed afterwards.
 
 with_tmp_dir(Goal) :-
+    with_tmp_dir(Dir, call(Goal, Dir)).
+
+with_tmp_dir(Dir, Goal) :-
     setup_call_cleanup(
         make_tmp_dir(Dir),
-        once(call(Goal, Dir)),
+        once(Goal),
         delete_directory_and_contents(Dir)).
 
 make_tmp_dir(Dir) :-
@@ -323,6 +329,7 @@ is_dead(Pid) :-
 %
 %   Calls Goal once while a `swipl Args` of its own is running.  In is the
 %   stream that writes to its standard input, Out reads its standard output.
+
 %   However Goal ends, the process is dead afterwards; Goal itself may have
 %   waited for its end.
 

@@ -1,6 +1,7 @@
 :- module(test_allocation_network, []).
 :- use_module('../../lib/common').
 :- use_module('../../lib/event_log').
+:- use_module('../../lib/networks').
 :- use_module(library(aggregate)).
 :- use_module(library(apply)).
 :- use_module(library(lists)).
@@ -18,25 +19,17 @@ any robot that was reserved twice. A process is killed with all its hosts and
 agents.
 */
 
-%   allocation(+Topology, +Options, +Settings, :Goal): Goal(Hosts, File),
-%   with robots that push on all hosts.
+%   allocation(+Topology, +Options, +Settings, -Hosts, -File, :Goal): with
+%   robots that push on all Hosts.
 
-:- meta_predicate allocation(+, +, +, 2).
+:- meta_predicate allocation(+, +, +, -, -, 0).
 
-allocation(Topology, Options, Settings, Goal) :-
-    no_leaks(with_tmp_dir(allocation_in(Topology, Options, Settings, Goal))).
-
-allocation_in(Topology, Options, Settings, Goal, Dir) :-
-    atom_concat(Dir, '/events.pl', File),
-    setup_call_cleanup(
-        network_start(Topology, Network,
-                      [clock(40), seed(1), log(File)|Options]),
-        ( network_property(Network, hosts(Hosts)),
-          maplist(push_robot(Settings), Hosts),
-          maplist(push_robot(Settings), Hosts),     % no second robot
-          once(call(Goal, Hosts, File)) ),
-        network_stop(Network)),
-    log_events(File, Events),
+allocation(Topology, Options, Settings, Hosts, File, Goal) :-
+    no_leaks(with_logged_network(
+                 Topology, [clock(40), seed(1)|Options], Hosts, File,
+                 ( maplist(push_robot(Settings), Hosts),
+                   maplist(push_robot(Settings), Hosts), % no second robot
+                   Goal ), Events)),
     reservation_faults(Events, Faults),
     exclude(died(Events), Faults, []).
 
@@ -94,117 +87,98 @@ executing(Agent, Robots) :-
 :- begin_tests(allocation_network).
 
 test(two_allocators_that_need_all_robots) :-
-    allocation(ring(5), [hop_time(uniform(0.2, 0.4))], [], both_all).
-
-both_all(Hosts, File) :-
-    Hosts = [A, _, B|_],
-    maplist([Name-Host, Agent]>>push(Name, 5, [], Host, [], Agent),
-            [a-A, b-B], Agents),
-    maplist(ends, Agents),
-    all_free(Hosts),
-    forall(member(Name, [a, b]),
-           ( happened(File, completed(Name)),
-             count(File, executed(_, _, Name), 5) )),
-    forall(member(Kind, [migration, child, message]),
-           happened(File, communications(Kind, _))).
-
+    allocation(ring(5), [hop_time(uniform(0.2, 0.4))], [], Hosts, File,
+        ( Hosts = [A, _, B|_],
+          maplist([Name-Host, Agent]>>push(Name, 5, [], Host, [], Agent),
+                  [a-A, b-B], Agents),
+          maplist(ends, Agents),
+          all_free(Hosts),
+          forall(member(Name, [a, b]),
+                 ( happened(File, completed(Name)),
+                   count(File, executed(_, _, Name), 5) )),
+          forall(member(Kind, [migration, child, message]),
+                 happened(File, communications(Kind, _))) )).
 test(four_allocators_with_constant_back_off) :-
-    allocation(random(8, 0.4), [hop_time(uniform(0.1, 0.2))], [], four).
-
-four(Hosts, File) :-
-    append(First, [_, _, _, _], Hosts),
-    findall(Agent,
-            ( nth1(Name, First, Host),
-              push(Name, 6, [duration(1)], Host,
-                   [backoff-constant, bi_min-2, children-2], Agent) ),
-            Agents),
-    maplist(ends, Agents),
-    all_free(Hosts),
-    count(File, completed(_), 4),
-    count(File, executed(_, _, _), 24).
+    allocation(random(8, 0.4), [hop_time(uniform(0.1, 0.2))], [], Hosts, File,
+        ( append(First, [_, _, _, _], Hosts),
+          findall(Agent,
+                  ( nth1(Name, First, Host),
+                    push(Name, 6, [duration(1)], Host,
+                         [backoff-constant, bi_min-2, children-2], Agent) ),
+                  Agents),
+          maplist(ends, Agents),
+          all_free(Hosts),
+          count(File, completed(_), 4),
+          count(File, executed(_, _, _), 24) )).
 
 %   Four robots found, and hops that take a second: equation 7.6.
 
 test(back_off_is_measured_in_hop_times) :-
     allocation(ring(4), [hop_time(uniform(1, 1))],
-               [watch-10, patience-10], rests).
-
-rests(Hosts, File) :-
-    Hosts = [Host|_],
-    push(t, 5, [], Host, [chi-0.05], Agent),
-    happened(File, backoff(_)),
-    so_far(File, Whats),
-    memberchk(backoff(Interval), Whats),
-    Interval >= 4,
-    wait_until(allocation_stage(Agent, resting, []), 20),
-    agent_dispose(Agent),
-    all_free(Hosts).
-
+               [watch-10, patience-10], Hosts, File,
+        ( Hosts = [Host|_],
+          push(t, 5, [], Host, [chi-0.05], Agent),
+          happened(File, backoff(_)),
+          so_far(File, Whats),
+          memberchk(backoff(Interval), Whats),
+          Interval >= 4,
+          wait_until(allocation_stage(Agent, resting, []), 20),
+          agent_dispose(Agent),
+          all_free(Hosts) )).
 test(deadline_while_searching) :-
-    allocation(ring(3), [], [], too_many).
-
-too_many(Hosts, File) :-
-    Hosts = [Host|_],
-    push(t, 4, [deadline(10)], Host, [], Agent),
-    ends(Agent),
-    all_free(Hosts),
-    happened(File, missed(t, 10)),
-    count(File, completed(_), 0).
-
+    allocation(ring(3), [], [], Hosts, File,
+        ( Hosts = [Host|_],
+          push(t, 4, [deadline(10)], Host, [], Agent),
+          ends(Agent),
+          all_free(Hosts),
+          happened(File, missed(t, 10)),
+          count(File, completed(_), 0) )).
 test(deadline_while_executing) :-
-    allocation(ring(3), [], [], too_long).
-
-too_long(Hosts, File) :-
-    Hosts = [Host|_],
-    push(t, 3, [deadline(60), duration(1000)], Host, [], Agent),
-    ends(Agent),
-    all_free(Hosts),
-    happened(File, missed(t, 60)),
-    happened(File, allocated(t, _)),
-    count(File, executed(_, _, _), 0),
-    wait_until(maplist([H]>>remote(H, host_load(1)), Hosts), 20).
+    allocation(ring(3), [], [], Hosts, File,
+        ( Hosts = [Host|_],
+          push(t, 3, [deadline(60), duration(1000)], Host, [], Agent),
+          ends(Agent),
+          all_free(Hosts),
+          happened(File, missed(t, 60)),
+          happened(File, allocated(t, _)),
+          count(File, executed(_, _, _), 0),
+          wait_until(maplist([H]>>remote(H, host_load(1)), Hosts), 20) )).
 
 %   A robot is out of order until the urgent task is done, so the first task
 %   cannot be done before.
 
 test(urgent_task_is_served_first) :-
-    allocation(ring(3), [hop_time(uniform(0.1, 0.2))], [], urgent).
-
-urgent(Hosts, File) :-
-    Hosts = [First, _, Last],
-    robot_fail(Last),
-    push(a, 3, [], First, [chi-1.0e30], A),
-    wait_until(( allocation_stage(A, _, Held), length(Held, 2) ), 40),
-    push(b, 2, [priority(1)], First, [], B),
-    ends(B),
-    count(File, completed(a), 0),
-    robot_repair(Last),
-    ends(A),
-    all_free(Hosts),
-    happened(File, completed(a)),
-    so_far(File, Whats),
-    append(_, [begun(a)|Later], Whats),
-    append(_, [begun(b)|Later1], Later),
-    append(_, [completed(b)|Later2], Later1),
-    memberchk(completed(a), Later2).
-
+    allocation(ring(3), [hop_time(uniform(0.1, 0.2))], [], Hosts, File,
+        ( Hosts = [First, _, Last],
+          robot_fail(Last),
+          push(a, 3, [], First, [chi-1.0e30], A),
+          wait_until(( allocation_stage(A, _, Held), length(Held, 2) ), 40),
+          push(b, 2, [priority(1)], First, [], B),
+          ends(B),
+          count(File, completed(a), 0),
+          robot_repair(Last),
+          ends(A),
+          all_free(Hosts),
+          happened(File, completed(a)),
+          so_far(File, Whats),
+          append(_, [begun(a)|Later], Whats),
+          append(_, [begun(b)|Later1], Later),
+          append(_, [completed(b)|Later2], Later1),
+          memberchk(completed(a), Later2) )).
 test(robot_fails_while_reserved) :-
-    allocation(ring(3), [], [], fails_reserved).
-
-fails_reserved(Hosts, File) :-
-    Hosts = [First, Second, Third],
-    robot_fail(Third),
-    push(t, 3, [], First, [chi-1.0e30], Agent),
-    wait_until(( allocation_stage(Agent, _, Held), length(Held, 2) ), 40),
-    robot_fail(Second),
-    happened(File, lost(Second, failed)),
-    maplist(robot_repair, [Second, Third]),
-    ends(Agent),
-    all_free(Hosts),
-    count(File, executed(_, _, t), 3).
-
+    allocation(ring(3), [], [], Hosts, File,
+        ( Hosts = [First, Second, Third],
+          robot_fail(Third),
+          push(t, 3, [], First, [chi-1.0e30], Agent),
+          wait_until(( allocation_stage(Agent, _, Held), length(Held, 2) ), 40),
+          robot_fail(Second),
+          happened(File, lost(Second, failed)),
+          maplist(robot_repair, [Second, Third]),
+          ends(Agent),
+          all_free(Hosts),
+          count(File, executed(_, _, t), 3) )).
 test(robot_fails_while_executing) :-
-    allocation(ring(4), [], [], fails_executing).
+    allocation(ring(4), [], [], Hosts, File, fails_executing(Hosts, File)).
 
 fails_executing(Hosts, File) :-
     Hosts = [First|_],
@@ -226,95 +200,82 @@ all_of_others(Hosts, Robot) :-
 %   Otherwise one robot is reserved repeatedly, with a reward each time.
 
 test(failed_robots_are_asked_again_after_a_back_off) :-
-    allocation(ring(3), [hop_time(uniform(0.2, 0.4))], [], fail_at_once).
-
-fail_at_once(Hosts, File) :-
-    Hosts = [First|_],
-    push(t, 2, [goal(fail), deadline(100)], First, [], Agent),
-    ends(Agent),
-    all_free(Hosts),
-    happened(File, missed(t, 100)),
-    so_far(File, Whats),
-    aggregate_all(count, member(lost(_, failed), Whats), Lost),
-    aggregate_all(count, member(backoff(_), Whats), Rests),
-    Lost > Rests,
-    Rests > 0,
-    Lost =< 3*(Rests + 1).
+    allocation(ring(3), [hop_time(uniform(0.2, 0.4))], [], Hosts, File,
+        ( Hosts = [First|_],
+          push(t, 2, [goal(fail), deadline(100)], First, [], Agent),
+          ends(Agent),
+          all_free(Hosts),
+          happened(File, missed(t, 100)),
+          so_far(File, Whats),
+          aggregate_all(count, member(lost(_, failed), Whats), Lost),
+          aggregate_all(count, member(backoff(_), Whats), Rests),
+          Lost > Rests,
+          Rests > 0,
+          Lost =< 3*(Rests + 1) )).
 
 %   An order to dispose of an allocator does not dispose of its reservations.
 
 test(allocator_is_disposed_of) :-
-    allocation(ring(3), [], [watch-5, patience-50], disposed_of).
-
-disposed_of(Hosts, _) :-
-    Hosts = [First|_],
-    push(t, 4, [], First, [chi-1.0e30], Agent),
-    wait_until(( allocation_stage(Agent, _, Held), length(Held, 3) ), 40),
-    agent_dispose(Agent),
-    all_free(Hosts).
-
+    allocation(ring(3), [], [watch-5, patience-50], Hosts, _,
+        ( Hosts = [First|_],
+          push(t, 4, [], First, [chi-1.0e30], Agent),
+          wait_until(( allocation_stage(Agent, _, Held), length(Held, 3) ), 40),
+          agent_dispose(Agent),
+          all_free(Hosts) )).
 test(allocator_is_disposed_of_while_executing) :-
-    allocation(ring(3), [], [watch-5, patience-50], disposed_executing).
-
-disposed_executing(Hosts, File) :-
-    Hosts = [First|_],
-    push(t, 3, [duration(1000)], First, [], Agent),
-    executing(Agent, _),
-    wait_until(robot_status(First, executing(Agent, t)), 20),
-    agent_dispose(Agent),
-    all_free(Hosts),
-    count(File, executed(_, _, _), 0).
+    allocation(ring(3), [], [watch-5, patience-50], Hosts, File,
+        ( Hosts = [First|_],
+          push(t, 3, [duration(1000)], First, [], Agent),
+          executing(Agent, _),
+          wait_until(robot_status(First, executing(Agent, t)), 20),
+          agent_dispose(Agent),
+          all_free(Hosts),
+          count(File, executed(_, _, _), 0) )).
 
 %   Robots that are not reached are notified by the allocator that rests; they
 %   get no message from one that has ended.
 
 test(children_reach_no_robot) :-
     allocation(ring(4), [hop_time(uniform(0.1, 0.2))],
-               [watch-5, patience-5], childless).
-
-childless(Hosts, File) :-
-    Hosts = [First|_],
-    push(t, 5, [deadline(60)], First, [chi-0.05, child_life-0], Agent),
-    happened(File, not_reached(_)),
-    happened(File, released(_, _, _)),
-    push(u, 4, [], First, [child_life-0], Other),
-    ends(Other),
-    ends(Agent),
-    all_free(Hosts).
+               [watch-5, patience-5], Hosts, File,
+        ( Hosts = [First|_],
+          push(t, 5, [deadline(60)], First, [chi-0.05, child_life-0], Agent),
+          happened(File, not_reached(_)),
+          happened(File, released(_, _, _)),
+          push(u, 4, [], First, [child_life-0], Other),
+          ends(Other),
+          ends(Agent),
+          all_free(Hosts) )).
 
 %   Allocation finds the robots, and the sequence is executed on these.
 
 test(sequence_on_the_robots_found) :-
-    allocation(random(6, 0.6), [hop_time(uniform(0.1, 0.2))], [],
-               sequence).
-
-sequence(Hosts, File) :-
-    Hosts = [Out, First|_],
-    robot_fail(Out),
-    Tasks = [floor-sleep(0.5), walls-sleep(0.5), roof-sleep(0.5)],
-    sequence_allocate(house, [3-[push]], First, Tasks,
-                      [ allocation([settings([seed-1])]),
-                        population([ seed(1),
-                                     settings([threshold-20, tick-0.5]) ])
-                      ],
-                      Robots, Outcome),
-    Outcome == completed,
-    Hosts = [_|Others],
-    all_free(Others),
-    happened(File, completed(house)),
-    logged(File, Events),
-    forall(member(Task-_, Tasks),
-           ( findall(Host,
-                     member(event(_, Host, _, completed(house, Task)),
-                            Events),
-                     Where),
-             msort(Where, Sorted),
-             msort(Robots, Sorted) )),
-    length(Robots, 3),
-    \+ memberchk(Out, Robots).
-
+    allocation(random(6, 0.6), [hop_time(uniform(0.1, 0.2))], [], Hosts, File,
+        ( Hosts = [Out, First|_],
+          robot_fail(Out),
+          Tasks = [floor-sleep(0.5), walls-sleep(0.5), roof-sleep(0.5)],
+          sequence_allocate(house, [3-[push]], First, Tasks,
+                            [ allocation([settings([seed-1])]),
+                              population([ seed(1),
+                                           settings([threshold-20, tick-0.5]) ])
+                            ],
+                            Robots, Outcome),
+          Outcome == completed,
+          Hosts = [_|Others],
+          all_free(Others),
+          happened(File, completed(house)),
+          logged(File, Events),
+          forall(member(Task-_, Tasks),
+                 ( findall(Host,
+                           member(event(_, Host, _, completed(house, Task)),
+                                  Events),
+                           Where),
+                   msort(Where, Sorted),
+                   msort(Robots, Sorted) )),
+          length(Robots, 3),
+          \+ memberchk(Out, Robots) )).
 test(sequence_is_missed) :-
-    allocation(ring(2), [], [], sequence_missed).
+    allocation(ring(2), [], [], Hosts, File, sequence_missed(Hosts, File)).
 
 sequence_missed(Hosts, File) :-
     Hosts = [First|_],
@@ -365,7 +326,7 @@ part(Agent, Blocks, Pid-Block, Others) :-
 
 test(killed_processes) :-
     allocation(random(9, 1.0), [processes(3)], [watch-10, patience-100],
-               killed).
+               Hosts, File, killed(Hosts, File)).
 
 killed(Hosts, File) :-
     blocks(Hosts, Blocks),

@@ -1,5 +1,6 @@
 :- module(test_auction_network, []).
 :- use_module('../../lib/common').
+:- use_module('../../lib/networks').
 :- use_module('../../lib/event_log').
 :- use_module('../../lib/fixtures').
 :- use_module('../../lib/peers').
@@ -20,32 +21,23 @@ checks that no robot was reserved twice, and that none is reserved at the end.
 Robots of dead hosts are ignored.
 */
 
-%   auctions(+Mechanism, +Topology, +Options, +Robots, :Goal): Goal(Hosts,
-%   File), with robots that push on the hosts of those numbers; hosts of lower
-%   numbers cost less. Of Options, auction(List) is for auction_start/3.
+%   auctions(+Mechanism, +Topology, +Options, +Robots, -Hosts, -File, :Goal):
+%   with robots that push on the hosts of those numbers; hosts of lower numbers
+%   cost less. Of Options, auction(List) is for auction_start/3.
 
-:- meta_predicate auctions(+, +, +, +, 2).
+:- meta_predicate auctions(+, +, +, +, -, -, 0).
 
-auctions(Mechanism, Topology, Options, Robots, Goal) :-
-    no_leaks(with_tmp_dir(auctions_in(Mechanism, Topology, Options, Robots,
-                                      Goal))).
-
-auctions_in(Mechanism, Topology, Options0, Robots, Goal, Dir) :-
-    atom_concat(Dir, '/events.pl', File),
+auctions(Mechanism, Topology, Options0, Robots, Hosts, File, Goal) :-
     select_option(auction(AuctionOptions), Options0, Options1, []),
     select_option(clock(Clock), Options1, Options, 100),
-    setup_call_cleanup(
-        network_start(Topology, Network,
-                      [clock(Clock), seed(1), log(File)|Options]),
-        ( network_property(Network, hosts(Hosts)),
-          forall(( member(I, Robots), nth1(I, Hosts, Host) ),
-                 robot_start(Host, [push, position=p(I,0)],
-                             [settings([watch-6000, patience-1000])])),
-          unhurried(AuctionOptions, Unhurried),
-          auction_start(Mechanism, Hosts, Unhurried),
-          once(call(Goal, Hosts, File)) ),
-        network_stop(Network)),
-    log_events(File, Events),
+    unhurried(AuctionOptions, Unhurried),
+    no_leaks(with_logged_network(
+                 Topology, [clock(Clock), seed(1)|Options], Hosts, File,
+                 ( forall(( member(I, Robots), nth1(I, Hosts, Host) ),
+                          robot_start(Host, [push, position=p(I,0)],
+                                      [settings([watch-6000, patience-1000])])),
+                   auction_start(Mechanism, Hosts, Unhurried),
+                   Goal ), Events)),
     reservation_faults(Events, Faults),
     exclude(died, Faults, []).
 
@@ -120,10 +112,7 @@ passed_on(Network) :-
 :- begin_tests(auction_flood_network).
 
 test(message_before_the_peers_are_known_is_forwarded) :-
-    no_leaks(setup_call_cleanup(
-                 network_start(line(3), Network, []),
-                 passed_on(Network),
-                 network_stop(Network))).
+    no_leaks(with_network(line(3), [], Network, passed_on(Network))).
 
 %   There are no bids, so one flood is sent: 2E - (N-1) messages.
 
@@ -132,22 +121,20 @@ test(closed_form, [ forall(member(Topology-Count,
     auctions(murdoch, Topology,
              [ hop_time(uniform(0.1, 0.3)),
                auction([slack(5), settings([bi_min-5000])]) ],
-             [], one_flood(Topology, Count)).
-
-one_flood(Topology, Count, [Host|Hosts], File) :-
-    All = [Host|Hosts],
-    post(murdoch, t, 1, [], Host),
-    happened(File, backoff(_)),
-    counted(murdoch, All, [announce-Count]),
-    typhon_topology:topology_edges(Topology, 1, N, Edges),
-    length(Edges, E),
-    Count =:= 2*E - (N - 1),
-    forall(member(Other, Hosts),
-           ( remote(Other, neighbours(Neighbours)),
-             length(Neighbours, Degree),
-             auction_counts(murdoch, [Other], Counts),
-             sum(Counts, Sent),
-             Sent =:= Degree - 1 )).
+             [], [Host|Hosts], File,
+        ( All = [Host|Hosts],
+          post(murdoch, t, 1, [], Host),
+          happened(File, backoff(_)),
+          counted(murdoch, All, [announce-Count]),
+          typhon_topology:topology_edges(Topology, 1, N, Edges),
+          length(Edges, E),
+          Count =:= 2*E - (N - 1),
+          forall(member(Other, Hosts),
+                 ( remote(Other, neighbours(Neighbours)),
+                   length(Neighbours, Degree),
+                   auction_counts(murdoch, [Other], Counts),
+                   sum(Counts, Sent),
+                   Sent =:= Degree - 1 )) )).
 
 sum(Counts, Sum) :-
     aggregate_all(sum(Count), member(_-Count, Counts), Sum).
@@ -155,7 +142,7 @@ sum(Counts, Sum) :-
 test(level_of_a_tree) :-
     auctions(anta, ring(6),
              [ auction([slack(5), settings([level-2, bi_min-5000])]) ],
-             [], level(4)).
+             [], Hosts, File, level(4, Hosts, File)).
 
 level(Count, [Host|Hosts], File) :-
     post(anta, t, 1, [], Host),
@@ -166,7 +153,7 @@ test(two_processes) :-
     auctions(murdoch, ring(6),
              [ processes(2), hop_time(uniform(0.1, 0.3)),
                auction([slack(5), settings([bi_min-5000])]) ],
-             [], two_processes).
+             [], Hosts, File, two_processes(Hosts, File)).
 
 two_processes(Hosts, File) :-
     Hosts = [Host|_],
@@ -193,17 +180,15 @@ two_processes(Hosts, File) :-
 
 test(murdoch_step_by_step) :-
     to_the_last(Options),
-    auctions(murdoch, grid(2, 3), Options, [2, 3, 4, 5, 6], steps_of_murdoch).
-
-steps_of_murdoch(Hosts, File) :-
-    step_by_step(murdoch, Hosts, File),
-    Flood is 2*7 - 5,
-    findall(Kind-Count,
-            ( member(Kind-Times, [ ack-6, announce-1, award-1, bid-5,
-                                   release-1, start-1 ]),
-              Count is Times*Flood ),
-            Counts),
-    counted(murdoch, Hosts, Counts).
+    auctions(murdoch, grid(2, 3), Options, [2, 3, 4, 5, 6], Hosts, File,
+        ( step_by_step(murdoch, Hosts, File),
+          Flood is 2*7 - 5,
+          findall(Kind-Count,
+                  ( member(Kind-Times, [ ack-6, announce-1, award-1, bid-5,
+                                         release-1, start-1 ]),
+                    Count is Times*Flood ),
+                  Counts),
+          counted(murdoch, Hosts, Counts) )).
 
 %   On a chain: each of five nodes reports once; awards, the start and the
 %   release go three links down, answers 1 + 2 + 3 links up, twice.
@@ -211,12 +196,10 @@ steps_of_murdoch(Hosts, File) :-
 test(anta_step_by_step) :-
     to_the_last(Options),
     auctions(anta, edges([1-2, 2-3, 3-4, 4-5, 5-6]), Options, [2, 3, 4, 5, 6],
-             steps_of_anta).
-
-steps_of_anta(Hosts, File) :-
-    step_by_step(anta, Hosts, File),
-    counted(anta, Hosts,
-            [ack-12, announce-5, award-3, bid-5, release-3, start-3]).
+             Hosts, File,
+        ( step_by_step(anta, Hosts, File),
+          counted(anta, Hosts,
+                  [ack-12, announce-5, award-3, bid-5, release-3, start-3]) )).
 
 step_by_step(Mechanism, Hosts, File) :-
     Hosts = [Host|_],
@@ -248,60 +231,51 @@ test(too_few_robots) :-
     auctions(anta, ring(4),
              [ clock(virtual),
                auction([slack(15), settings([bi_min-5, bi_max-10])]) ],
-             [2, 3], too_few(anta)).
-
-too_few(Mechanism, Hosts, File) :-
-    Hosts = [Host, _, _, Last],
-    post(Mechanism, t, 3, [duration(1)], Host),
-    time_passes(Hosts, 20),
-    happened(File, backoff(Interval)),
-    Interval >= 5,
-    Interval =< 20,                     % 5 or 10, and up to 10
-    all(File, reserved(_, _, _), []),
-    robot_start(Last, [push, position=p(4,0)], []),
-    time_passes(Hosts, 200),
-    happened(File, completed(t)),
-    all_free(Hosts).
-
+             [2, 3], Hosts, File,
+        ( Hosts = [Host, _, _, Last],
+          post(anta, t, 3, [duration(1)], Host),
+          time_passes(Hosts, 20),
+          happened(File, backoff(Interval)),
+          Interval >= 5,
+          Interval =< 20,                     % 5 or 10, and up to 10
+          all(File, reserved(_, _, _), []),
+          robot_start(Last, [push, position=p(4,0)], []),
+          time_passes(Hosts, 200),
+          happened(File, completed(t)),
+          all_free(Hosts) )).
 test(two_auctions_that_need_all_robots,
      [forall(member(Mechanism, [murdoch, anta]))]) :-
     auctions(Mechanism, grid(2, 3),
              [ clock(virtual), hop_time(uniform(0.1, 0.3)),
                auction([slack(15), settings([bi_min-2, bi_max-20])]) ],
-             [1, 2, 3, 4, 5, 6], both_all(Mechanism)).
-
-both_all(Mechanism, Hosts, File) :-
-    Hosts = [First|_],
-    last(Hosts, Last),
-    post(Mechanism, a, 6, [duration(2)], First),
-    post(Mechanism, b, 6, [duration(2)], Last),
-    time_passes(Hosts, 5000),
-    happened(File, completed(a)),
-    happened(File, completed(b)),
-    all_free(Hosts),
-    forall(member(Name, [a, b]),
-           ( all(File, executed(_, _, Name), Executed),
-             length(Executed, 6) )).
-
+             [1, 2, 3, 4, 5, 6], Hosts, File,
+        ( Hosts = [First|_],
+          last(Hosts, Last),
+          post(Mechanism, a, 6, [duration(2)], First),
+          post(Mechanism, b, 6, [duration(2)], Last),
+          time_passes(Hosts, 5000),
+          happened(File, completed(a)),
+          happened(File, completed(b)),
+          all_free(Hosts),
+          forall(member(Name, [a, b]),
+                 ( all(File, executed(_, _, Name), Executed),
+                   length(Executed, 6) )) )).
 test(urgent_auction_comes_first) :-
     auctions(murdoch, ring(4),
              [ clock(virtual),
                auction([slack(15), settings([bi_min-2, bi_max-20])]) ],
-             [1, 2, 3, 4], urgent(murdoch)).
-
-urgent(Mechanism, Hosts, File) :-
-    Hosts = [First, _, Third|_],
-    post(Mechanism, slow, 4, [duration(2)], First),
-    post(Mechanism, quick, 4, [duration(2), priority(5)], Third),
-    time_passes(Hosts, 500),
-    happened(File, completed(slow)),
-    all_free(Hosts),
-    all(File, completed(_), Completed),
-    Completed == [completed(quick), completed(slow)].
-
+             [1, 2, 3, 4], Hosts, File,
+        ( Hosts = [First, _, Third|_],
+          post(murdoch, slow, 4, [duration(2)], First),
+          post(murdoch, quick, 4, [duration(2), priority(5)], Third),
+          time_passes(Hosts, 500),
+          happened(File, completed(slow)),
+          all_free(Hosts),
+          all(File, completed(_), Completed),
+          Completed == [completed(quick), completed(slow)] )).
 test(a_deadline_is_missed) :-
     auctions(murdoch, ring(4), [clock(virtual), auction([slack(15)])],
-             [1, 2, 3, 4], missed(murdoch)).
+             [1, 2, 3, 4], Hosts, File, missed(murdoch, Hosts, File)).
 
 missed(Mechanism, Hosts, File) :-
     Hosts = [First|_],
@@ -313,39 +287,35 @@ missed(Mechanism, Hosts, File) :-
 
 test(a_failed_robot_is_replaced) :-
     auctions(anta, ring(5), [clock(virtual), auction([slack(15)])],
-             [1, 2, 3, 4], replaced(anta)).
-
-replaced(Mechanism, Hosts, File) :-
-    Hosts = [First, Second, _, Fourth, _],
-    post(Mechanism, t, 3, [duration(60)], First),
-    time_passes(Hosts, 30),
-    robot_status(Second, executing(_, t)),
-    robot_fail(Second),
-    time_passes(Hosts, 300),
-    happened(File, completed(t)),
-    exclude(==(Second), Hosts, Others),
-    all_free(Others),
-    happened(File, executed(Fourth, _, t)),
-    all(File, executed(Second, _, t), []).
+             [1, 2, 3, 4], Hosts, File,
+        ( Hosts = [First, Second, _, Fourth, _],
+          post(anta, t, 3, [duration(60)], First),
+          time_passes(Hosts, 30),
+          robot_status(Second, executing(_, t)),
+          robot_fail(Second),
+          time_passes(Hosts, 300),
+          happened(File, completed(t)),
+          exclude(==(Second), Hosts, Others),
+          all_free(Others),
+          happened(File, executed(Fourth, _, t)),
+          all(File, executed(Second, _, t), []) )).
 
 %   A node of the chain whose parent is cut off has another path.
 
 test(a_parent_has_vanished) :-
     auctions(anta, edges([1-2, 2-3, 3-4]),
-             [clock(virtual), auction([slack(15)])], [4], orphan).
-
-orphan(Hosts, File) :-
-    Hosts = [First, _, Third, Fourth],
-    post(anta, t, 1, [duration(1)], First),
-    time_passes(Hosts, 1),
-    remote(Fourth, sense(node(anta, Node))),
-    agent_property(Node, facts(Facts)),
-    memberchk(gathered(_, _, Fourth, _), Facts),
-    link(First, Fourth),
-    unlink(Third, Fourth),
-    time_passes(Hosts, 100),
-    happened(File, completed(t)),
-    all_free(Hosts).
+             [clock(virtual), auction([slack(15)])], [4], Hosts, File,
+        ( Hosts = [First, _, Third, Fourth],
+          post(anta, t, 1, [duration(1)], First),
+          time_passes(Hosts, 1),
+          remote(Fourth, sense(node(anta, Node))),
+          agent_property(Node, facts(Facts)),
+          memberchk(gathered(_, _, Fourth, _), Facts),
+          link(First, Fourth),
+          unlink(Third, Fourth),
+          time_passes(Hosts, 100),
+          happened(File, completed(t)),
+          all_free(Hosts) )).
 
 :- end_tests(auction_network).
 
@@ -393,16 +363,14 @@ test(a_host_gets_one_node, Loads == [1, 1]) :-
                  auction_start(murdoch, Hosts, []),
                  findall(Load, ( member(H, Hosts),
                                  remote(H, host_load(Load)) ), Loads) )).
-test(diameter, Found == [3]) :-
+test(diameter, [Level] == [3]) :-
     auctions(anta, grid(2,3), [hop_time(uniform(0.2, 0.5)),
-                               auction([slack(2)])], [], level_of(Found)).
-
-level_of([Level], [Host|_], _) :-
-    remote(Host, sense(node(anta, Node))),
-    agent_property(Node, facts(Facts)),
-    memberchk(setting(level, Level), Facts),
-    memberchk(setting(window, Window), Facts),
-    Window =:= 2*Level*0.5 + 2.
+                               auction([slack(2)])], [], [Host|_], _,
+        ( remote(Host, sense(node(anta, Node))),
+          agent_property(Node, facts(Facts)),
+          memberchk(setting(level, Level), Facts),
+          memberchk(setting(window, Window), Facts),
+          Window =:= 2*Level*0.5 + 2 )).
 
 :- end_tests(auction_operator).
 
@@ -411,35 +379,30 @@ level_of([Level], [Host|_], _) :-
 test(the_host_of_an_auctioneer_stops) :-
     quick(Quick),
     auctions(murdoch, mesh(3), [clock(virtual), auction(Quick)], [2, 3],
-             auctioneer_stops(murdoch)).
-
-auctioneer_stops(Mechanism, Hosts, File) :-
-    Hosts = [First|Others],
-    Others = [Second, _],
-    post(Mechanism, t, 2, [duration(1000)], First),
-    time_passes(Hosts, 30),
-    robot_status(Second, executing(_, t)),
-    stops(First),
-    time_passes(Hosts, 300),
-    all_free(Others),
-    all(File, released(_, _, t), [_, _]),
-    post(Mechanism, u, 2, [duration(1)], Second),
-    time_passes(Hosts, 100),
-    happened(File, completed(u)),
-    all_free(Others).
+             Hosts, File,
+        ( Hosts = [First|Others],
+          Others = [Second, _],
+          post(murdoch, t, 2, [duration(1000)], First),
+          time_passes(Hosts, 30),
+          robot_status(Second, executing(_, t)),
+          stops(First),
+          time_passes(Hosts, 300),
+          all_free(Others),
+          all(File, released(_, _, t), [_, _]),
+          post(murdoch, u, 2, [duration(1)], Second),
+          time_passes(Hosts, 100),
+          happened(File, completed(u)),
+          all_free(Others) )).
 
 %   The host of a robot, in its own process, which ends without a goodbye.
 
 test(a_process_is_killed) :-
     patient(Patient),
-    auctions(anta, mesh(3), [auction(Patient)], [2, 3],
-             beside_a_process(anta)).
-
-beside_a_process(Mechanism, Hosts, File) :-
-    typhon_clocks:clock(n1, Epoch, Rate),
-    typhon_hosts:host_option(n1, log(Log)),
-    with_peers([gone-[host([clock(Epoch, Rate), log(Log)])]],
-               killed(Mechanism, Hosts, File)).
+    auctions(anta, mesh(3), [auction(Patient)], [2, 3], Hosts, File,
+        ( typhon_clocks:clock(n1, Epoch, Rate),
+          typhon_hosts:host_option(n1, log(Log)),
+          with_peers([gone-[host([clock(Epoch, Rate), log(Log)])]],
+                     killed(anta, Hosts, File)) )).
 
 killed(Mechanism, Hosts, File) :-
     Hosts = [First, Second, Third],

@@ -1,6 +1,7 @@
 :- module(test_hierarchy, []).
 :- use_module('../../lib/algorithms_bench').
 :- use_module('../../lib/common').
+:- use_module('../../lib/networks').
 :- use_module(library(aggregate)).
 :- use_module(library(apply)).
 :- use_module(library(lists)).
@@ -105,15 +106,9 @@ any_part(Count-Seconds) :-
 %   in_network(+Topology, :Goal, -Events): of the hosts, in virtual time.
 
 in_network(Topology, Goal, Events) :-
-    tmp_file(events, File),
-    setup_call_cleanup(
-        network_start(Topology, Network, [ clock(virtual), seed(1), log(File),
-                                        hop_time(uniform(0.2, 0.4)) ]),
-        ( network_property(Network, hosts(Hosts)),
-          call(Goal, Hosts) ),
-        network_stop(Network)),
-    log_events(File, Events),
-    delete_file(File).
+    with_logged_network(Topology,
+                        [clock(virtual), seed(1), hop_time(uniform(0.2, 0.4))],
+                        Hosts, _, call(Goal, Hosts), Events).
 
 %   sequences(+Level, +Limit, +Hosts): two rounds of two tasks, in two parts.
 
@@ -134,17 +129,14 @@ deltas(Round, Events, Deltas) :-
                      memberchk(delta-Delta, Settings) ), Deltas0),
     sort(Deltas0, Deltas).
 
-executed(Events, Count) :-
-    findall(Host-Round-Task,
-            member(event(_, Host, _, completed(Round, Task)), Events), All0),
-    sort(All0, All),
-    length(All, Count).
-
 :- begin_tests(hierarchy).
 
 test(observer_decides_for_all_leaders, Count-First == 24-[0.5]) :-
     in_network(ring(6), sequences(observer, 500), Events),
-    executed(Events, Count),
+    findall(Host-Round-Task,
+            member(event(_, Host, _, completed(Round, Task)), Events), All0),
+    sort(All0, All),
+    length(All, Count),
     deltas(one, Events, First),
     deltas(two, Events, [Second]),
     assertion(Second =\= 0.5),

@@ -1,5 +1,6 @@
 :- module(test_learning_network, []).
 :- use_module('../../lib/common').
+:- use_module('../../lib/networks').
 :- use_module('../../lib/event_log', [logged/2]).
 
 :- use_module(library(plunit)).
@@ -24,21 +25,11 @@ Their solutions are executed in a maze of this process.
 
 setting(size, 5).
 
-%   network(+Topology, +Options, :Goal): Goal(Hosts, File), with a log.
+:- meta_predicate network(+, +, -, -, 0).
 
-:- meta_predicate network(+, +, 2).
-
-network(Topology, Options, Goal) :-
-    no_leaks(with_tmp_dir(network_in(Topology, Options, Goal))).
-
-network_in(Topology, Options, Goal, Dir) :-
-    atom_concat(Dir, '/events.pl', File),
-    setup_call_cleanup(
-        network_start(Topology, Network,
-                      [clock(100), seed(1), log(File)|Options]),
-        ( network_property(Network, hosts(Hosts)),
-          once(call(Goal, Hosts, File)) ),
-        network_stop(Network)).
+network(Topology, Options, Hosts, File, Goal) :-
+    no_leaks(with_logged_network(Topology, [clock(100), seed(1)|Options],
+                                 Hosts, File, Goal, _)).
 
 learn(Hosts, Options, Agents) :-
     learn(Hosts, [], Options, Agents).
@@ -84,38 +75,115 @@ converged(Events, Agent) :-
 :- begin_tests(learning_network).
 
 test(three_agents_in_two_processes) :-
-    network(mesh(4), [processes(2)], three_agents).
+    network(mesh(4), [processes(2)], Hosts, File,
+        ( learn(Hosts, [agents(3)], Agents),
+          all_end(Agents),
+          at_least(File, event(_, _, _, converged(_, _, _)), 3),
+          logged(File, Events),
+          maplist(converged(Events), Agents),
+          memberchk(event(_, _, _, shared(_, _)), Events),
+          executing_processes(Events, [_, _]) )).
 test(one_agent_alone) :-
-    network(ring(3), [], alone).
+    network(ring(3), [], Hosts, File,
+        ( learn(Hosts, [agents(1)], [Agent]),
+          all_end([Agent]),
+          await(File, event(_, _, _, converged(_, _, _))),
+          logged(File, Events),
+          converged(Events, Agent),
+          \+ memberchk(event(_, _, _, shared(_, _)), Events) )).
 test(without_sharing_no_units_are_exchanged) :-
-    network(mesh(3), [], unshared).
+    network(mesh(3), [], Hosts, File,
+        ( learn(Hosts, [size-3, sharing-false], [agents(3)], Agents),
+          all_end(Agents),
+          at_least(File, event(_, _, _, converged(_, _, _)), 3),
+          logged(File, Events),
+          \+ memberchk(event(_, _, _, shared(_, _)), Events) )).
 test(full_queue) :-
-    network(mesh(3), [hosts([capacity(2)])], full_queue).
+    network(mesh(3), [hosts([capacity(2)])], Hosts, File, full_queue(Hosts, File)).
+
+%   At A, which has lost its link, the agent retries until it succeeds.
+
 test(isolated_host) :-
-    network(edges([a-b, b-c]), [], isolated).
+    network(edges([a-b, b-c]), [], [A, B, C], File,
+        ( unlink(A, B),
+          learn([A, B, C], [size-3], [agents(1), starts([A])], [Learner]),
+          await(File, event(_, A, Learner, executed(1, _, _, _))),
+          wait_until(lingers(Learner, First), 20),
+          wait_until(( lingers(Learner, Second), Second > First ), 20),
+          agent_property(Learner, hops(0)),
+          link(A, B),
+          all_end([Learner]),
+          await(File, event(_, _, Learner, converged(_, _, _))) )).
 test(peer_is_disposed_of) :-
-    network(edges([a-b]), [], disposed).
+    network(edges([a-b]), [], [A, B], File,
+        ( mute(B, B, Mute),
+          await(File, event(_, B, Mute, ready)),
+          learn([A, B], [size-3], [agents(1), starts([A])], [Learner]),
+          await(File, event(_, B, Mute, asked)),
+          agent_dispose(Mute),
+          all_end([Learner]),
+          \+ remote(B, sense(queued(_))) )).
+
+%   The first agent is queried before its process is killed, the second after.
+
 test(peer_is_in_a_process_that_is_killed) :-
-    network(edges([a-b, b-c, c-d]), [processes(2)], killed).
+    network(edges([a-b, b-c, c-d]), [processes(2)], [A, B, C, _], File,
+        ( mute(B, C, Mute1),
+          await(File, event(_, C, Mute1, ready)),
+          mute(B, C, Mute2),
+          await(File, event(_, C, Mute2, ready)),
+          process_of(C, Pid),
+          learn([A, B], [size-3], [agents(1), starts([A])], [Learner]),
+          await(File, event(_, C, Mute1, asked)),
+          process_kill(Pid, kill),
+          all_end([Learner]),
+          \+ remote(B, sense(queued(_))),
+          logged(File, Events),
+          \+ memberchk(event(_, _, Mute2, asked), Events) )).
+
+%   First an algorithm that never plans anything, then the original one.
+
 test(algorithm_is_exchanged) :-
-    network(mesh(3), [], exchanged).
+    network(mesh(3), [], Hosts, File,
+        ( learn(Hosts, [size-20], [agents(3)], Agents),
+          Planned = event(_, _, _, executed(_, Length, _, _)),
+          wait_until(( logged(File, Events0), member(Planned, Events0),
+                       Length > 0 ), 30),
+          with_tmp_dir(to_idle_and_back(Agents, File)),
+          forall(member(Agent, Agents), agent_dispose(Agent)) )).
 test(algorithm_is_removed) :-
-    network(mesh(3), [], taken_away).
+    network(mesh(3), [], Hosts, File,
+        ( learn(Hosts, [agents(2)], Agents),
+          forall(member(Agent, Agents), payload_detach(Agent, greedy)),
+          maplist(assimilates, Agents),
+          logged(File, Events0),
+          count_executed(Events0, Count0),
+          maplist(assimilates, Agents),
+          logged(File, Events1),
+          count_executed(Events1, Count0),
+          forall(member(Agent, Agents),
+                 payload_attach(Agent, payloads(learning/greedy))),
+          all_end(Agents),
+          at_least(File, event(_, _, _, converged(_, _, _)), 2) )).
 test(no_second_trainer) :-
-    network(ring(3), [], furnished_twice).
+    network(ring(3), [], Hosts, _,
+        ( learn(Hosts, [agents(0)], []),
+          learn(Hosts, [agents(0)], []),
+          forall(member(Host, Hosts), remote(Host, host_load(1))) )).
 test(algorithms_in_turn) :-
-    network(mesh(3), [], two_algorithms).
+    network(mesh(3), [], Hosts, File,
+        ( with_tmp_dir(Dir,
+              ( atom_concat(Dir, '/idle.pl', Idle),
+                write_idle(Idle),
+                learning_start(Hosts, payloads(learning/maze),
+                               [payloads(learning/greedy), Idle],
+                               [agents(4), settings([size-50])], Agents) )),
+          findall(Name, ( member(Agent, Agents),
+                          agent_property(Agent, payloads([Name])) ), Names),
+          Names == [greedy, idle, greedy, idle],
+          await(File, event(_, _, _, executed(2, _, _, _))) )).
 test(no_hosts, error(domain_error(hosts, []))) :-
     learn([], [agents(1)], _).
-
-three_agents(Hosts, File) :-
-    learn(Hosts, [agents(3)], Agents),
-    all_end(Agents),
-    at_least(File, event(_, _, _, converged(_, _, _)), 3),
-    logged(File, Events),
-    maplist(converged(Events), Agents),
-    memberchk(event(_, _, _, shared(_, _)), Events),
-    executing_processes(Events, [_, _]).
 
 executing_processes(Events, Endpoints) :-
     findall(Endpoint,
@@ -123,21 +191,6 @@ executing_processes(Events, Endpoints) :-
               atomic_list_concat([_, Endpoint], @, Host) ),
             Endpoints0),
     sort(Endpoints0, Endpoints).
-
-alone(Hosts, File) :-
-    learn(Hosts, [agents(1)], [Agent]),
-    all_end([Agent]),
-    await(File, event(_, _, _, converged(_, _, _))),
-    logged(File, Events),
-    converged(Events, Agent),
-    \+ memberchk(event(_, _, _, shared(_, _)), Events).
-
-unshared(Hosts, File) :-
-    learn(Hosts, [size-3, sharing-false], [agents(3)], Agents),
-    all_end(Agents),
-    at_least(File, event(_, _, _, converged(_, _, _)), 3),
-    logged(File, Events),
-    \+ memberchk(event(_, _, _, shared(_, _)), Events).
 
 %   B has capacity for one agent besides the trainer. No plan is executed there
 %   until the agent at B has left.
@@ -160,19 +213,6 @@ lodger(Host, Agent) :-
                            (main :- receive(_-go)) ]),
                  Agent, [host(Host)]).
 
-%   At A, which has lost its link, the agent retries until it succeeds.
-
-isolated([A, B, C], File) :-
-    unlink(A, B),
-    learn([A, B, C], [size-3], [agents(1), starts([A])], [Learner]),
-    await(File, event(_, A, Learner, executed(1, _, _, _))),
-    wait_until(lingers(Learner, First), 20),
-    wait_until(( lingers(Learner, Second), Second > First ), 20),
-    agent_property(Learner, hops(0)),
-    link(A, B),
-    all_end([Learner]),
-    await(File, event(_, _, Learner, converged(_, _, _))).
-
 lingers(Agent, Until) :-
     agent_property(Agent, goals(Goals)),
     sub_term(Sub, Goals),
@@ -191,43 +231,8 @@ mute(Host, Where, Agent) :-
                                     log(asked), receive(_-never)) ]),
                  Agent, [host(Host)]).
 
-disposed([A, B], File) :-
-    mute(B, B, Mute),
-    await(File, event(_, B, Mute, ready)),
-    learn([A, B], [size-3], [agents(1), starts([A])], [Learner]),
-    await(File, event(_, B, Mute, asked)),
-    agent_dispose(Mute),
-    all_end([Learner]),
-    \+ remote(B, sense(queued(_))).
-
-%   The first agent is queried before its process is killed, the second after.
-
-killed([A, B, C, _], File) :-
-    mute(B, C, Mute1),
-    await(File, event(_, C, Mute1, ready)),
-    mute(B, C, Mute2),
-    await(File, event(_, C, Mute2, ready)),
-    process_of(C, Pid),
-    learn([A, B], [size-3], [agents(1), starts([A])], [Learner]),
-    await(File, event(_, C, Mute1, asked)),
-    process_kill(Pid, kill),
-    all_end([Learner]),
-    \+ remote(B, sense(queued(_))),
-    logged(File, Events),
-    \+ memberchk(event(_, _, Mute2, asked), Events).
-
 process_of(Host, Pid) :-
     remote(Host, current_prolog_flag(pid, Pid)).
-
-%   First an algorithm that never plans anything, then the original one.
-
-exchanged(Hosts, File) :-
-    learn(Hosts, [size-20], [agents(3)], Agents),
-    Planned = event(_, _, _, executed(_, Length, _, _)),
-    wait_until(( logged(File, Events0), member(Planned, Events0),
-                 Length > 0 ), 30),
-    with_tmp_dir(to_idle_and_back(Agents, File)),
-    forall(member(Agent, Agents), agent_dispose(Agent)).
 
 to_idle_and_back(Agents, File, Dir) :-
     atom_concat(Dir, '/idle.pl', Idle),
@@ -264,20 +269,6 @@ lengths(File, Agent, Lengths) :-
             member(event(_, _, Agent, executed(_, Length, _, _)), Events),
             Lengths).
 
-taken_away(Hosts, File) :-
-    learn(Hosts, [agents(2)], Agents),
-    forall(member(Agent, Agents), payload_detach(Agent, greedy)),
-    maplist(assimilates, Agents),
-    logged(File, Events0),
-    count_executed(Events0, Count0),
-    maplist(assimilates, Agents),
-    logged(File, Events1),
-    count_executed(Events1, Count0),
-    forall(member(Agent, Agents),
-           payload_attach(Agent, payloads(learning/greedy))),
-    all_end(Agents),
-    at_least(File, event(_, _, _, converged(_, _, _)), 2).
-
 count_executed(Events, Count) :-
     aggregate_all(count,
                   member(event(_, _, _, executed(_, _, _, _)), Events),
@@ -288,24 +279,5 @@ count_executed(Events, Count) :-
 assimilates(Agent) :-
     wait_until(( agent_property(Agent, goals(Goals)),
                  last(Goals, assimilator) ), 30).
-
-furnished_twice(Hosts, _) :-
-    learn(Hosts, [agents(0)], []),
-    learn(Hosts, [agents(0)], []),
-    forall(member(Host, Hosts), remote(Host, host_load(1))).
-
-two_algorithms(Hosts, File) :-
-    with_tmp_dir(start_four(Hosts, Agents)),
-    findall(Name, ( member(Agent, Agents),
-                    agent_property(Agent, payloads([Name])) ), Names),
-    Names == [greedy, idle, greedy, idle],
-    await(File, event(_, _, _, executed(2, _, _, _))).
-
-start_four(Hosts, Agents, Dir) :-
-    atom_concat(Dir, '/idle.pl', Idle),
-    write_idle(Idle),
-    learning_start(Hosts, payloads(learning/maze),
-                   [payloads(learning/greedy), Idle],
-                   [agents(4), settings([size-50])], Agents).
 
 :- end_tests(learning_network).

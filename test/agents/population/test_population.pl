@@ -1,5 +1,6 @@
 :- use_module('../../lib/common', [wait_until/2, with_tmp_dir/1]).
 :- use_module('../../lib/fake_agent').
+:- use_module('../../lib/networks').
 :- use_module(library(aggregate)).
 :- use_module(library(apply)).
 :- use_module(library(lists)).
@@ -316,21 +317,15 @@ write_harvester(Dir, File) :-
 
 crowd(Most, Dir) :-
     write_harvester(Dir, File),
-    atomic_list_concat([Dir, '/events.pl'], Log),
-    setup_call_cleanup(
-        network_start(ring(3), Network,
-                      [ log(Log), clock(20), hosts([capacity(5)]), seed(1) ]),
-        ( network_property(Network, hosts(Hosts)),
-          forall(member(Host, Hosts),
+    with_logged_network(
+        ring(3), [clock(20), hosts([capacity(5)]), seed(1)], Hosts, Log,
+        ( forall(member(Host, Hosts),
                  agent_create(agents(population/queue), _,
                               [host(Host), static(true)])),
           Hosts = [Host1|_],
           agent_create(File, _, [host(Host1), name(agent1)]),
           wait_until(alive(Log, 12), 60),
-          wait_until(serviced(Log, 300), 60)
-        ),
-        network_stop(Network)),
-    log_events(Log, Events),
+          wait_until(serviced(Log, 300), 60) ), Events),
     populations(Events, [1], Steps),
     peak(total, Steps, _-Most).
 

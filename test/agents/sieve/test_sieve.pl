@@ -1,11 +1,13 @@
 :- module(test_sieve, []).
 :- use_module('../../lib/common').
+:- use_module('../../lib/networks').
 :- use_module('../../lib/event_log').
 :- use_module('../../lib/fixtures').
 :- use_module(library(plunit)).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [foldl/4, maplist/3]).
 :- use_module(library(lists), [member/2, numlist/3, sum_list/2]).
+:- use_module(library(option), [select_option/4]).
 :- use_module(library(typhon)).
 :- use_module('../../../agents/sieve/operator').
 :- include('../../../agents/sieve/idiotypic').
@@ -151,30 +153,21 @@ rounded(X, Y) :-
                 *            HOSTS             *
                 *******************************/
 
-%   sieve(+Topology, +Options, +Settings, :Goal): with guards on all hosts,
-%   and a log.  One of Settings may be application(Payload).
+%   sieve(+Topology, +Options, +Settings, -Hosts, -File, :Goal): with guards on
+%   all hosts, and a log.  One of Settings may be application(Payload).
 
-:- meta_predicate sieve(+, +, +, 2).
+:- meta_predicate sieve(+, +, +, -, -, 0).
 
-sieve(Topology, Options, Settings, Goal) :-
-    no_leaks(with_tmp_dir(sieve_in(Topology, Options, Settings, Goal))).
-
-sieve_in(Topology, Options, Settings, Goal, Dir) :-
-    atom_concat(Dir, '/events.pl', File),
-    setup_call_cleanup(
-        network_start(Topology, Network,
-                      [clock(20), seed(1), log(File)|Options]),
-        ( network_property(Network, hosts(Hosts)),
-          (   select(application(Application), Settings, Settings1)
-          ->  true
-          ;   Application = payloads(sieve/bits),
-              Settings1 = Settings
-          ),
-          sieve_start(Hosts, Application, [settings([seed-1|Settings1])]),
-          sieve_start(Hosts, Application, []),  % no second guard
-          forall(member(Host, Hosts), remote(Host, host_load(1))),
-          once(call(Goal, Hosts, File)) ),
-        network_stop(Network)).
+sieve(Topology, Options, Settings0, Hosts, File, Goal) :-
+    select_option(application(Application), Settings0, Settings,
+                  payloads(sieve/bits)),
+    no_leaks(with_logged_network(
+                 Topology, [clock(20), seed(1)|Options], Hosts, File,
+                 ( sieve_start(Hosts, Application,
+                               [settings([seed-1|Settings])]),
+                   sieve_start(Hosts, Application, []), % no second guard
+                   forall(member(Host, Hosts), remote(Host, host_load(1))),
+                   Goal ), _)).
 
 %   The events so far, in order.
 
@@ -205,58 +198,50 @@ release(Host, Settings, Name-Memory, Agent) :-
 :- begin_tests(sieve_host).
 
 test(host_without_help_draws_an_antibody) :-
-    sieve(ring(1), [], [patience-20], alone).
-
-alone([Host], File) :-
-    bits('00000', Antigen),
-    antigen_attack([Host], Antigen),
-    settled(File, 1),
-    wait_until(count(File, born(host, _), 1), 10),
-    log_entries(File, All),
-    member(generated(Antigen, Antibody, Wait), All),
-    affinity(Antigen, Antibody, Psi),
-    Psi >= 4,
-    Wait >= 20,
-    antigen_attack([Host], Antigen),    % now there is an antibody
-    settled(File, 2),
-    log_entries(File, Later),
-    memberchk(served(Antigen, Antibody, _, 1), Later).
+    sieve(ring(1), [], [patience-20], [Host], File,
+        ( bits('00000', Antigen),
+          antigen_attack([Host], Antigen),
+          settled(File, 1),
+          wait_until(count(File, born(host, _), 1), 10),
+          log_entries(File, All),
+          member(generated(Antigen, Antibody, Wait), All),
+          affinity(Antigen, Antibody, Psi),
+          Psi >= 4,
+          Wait >= 20,
+          antigen_attack([Host], Antigen),    % now there is an antibody
+          settled(File, 2),
+          log_entries(File, Later),
+          memberchk(served(Antigen, Antibody, _, 1), Later) )).
 
 %   Whichever agent is chosen, the better one clones.
 
 test(better_clones_and_identical_is_redundant) :-
-    sieve(ring(1), [], [gather-10, patience-400], better).
-
-better([Host], File) :-
-    bits('00000', Antigen),
-    bits('11111', Best),
-    release(Host, [], '11111'-[Antigen-31], _),
-    release(Host, [], '11111'-[Antigen-31], _),
-    release(Host, [], '11110'-[Antigen-30], _),
-    release(Host, [], '00111'-[], _),   % cannot help
-    antigen_attack([Host], Antigen),
-    settled(File, 1),
-    wait_until(count(File, born(clone, Best), 1), 10),
-    log_entries(File, All),
-    memberchk(served(Antigen, _, _, 2), All),
-    count(File, born(clone, _), 1).
-
+    sieve(ring(1), [], [gather-10, patience-400], [Host], File,
+        ( bits('00000', Antigen),
+          bits('11111', Best),
+          release(Host, [], '11111'-[Antigen-31], _),
+          release(Host, [], '11111'-[Antigen-31], _),
+          release(Host, [], '11110'-[Antigen-30], _),
+          release(Host, [], '00111'-[], _),   % cannot help
+          antigen_attack([Host], Antigen),
+          settled(File, 1),
+          wait_until(count(File, born(clone, Best), 1), 10),
+          log_entries(File, All),
+          memberchk(served(Antigen, _, _, 2), All),
+          count(File, born(clone, _), 1) )).
 test(at_most_one_memory_cell) :-
     sieve(ring(1), [], [gather-1, patience-400, memory_cells-1, memory_wins-1],
-          cells).
-
-cells([Host], File) :-
-    bits('00000', Antigen),
-    release(Host, [], '11111'-[], _),
-    antigen_attack([Host], Antigen),
-    settled(File, 1),
-    wait_until(count(File, memory_cell(_), 1), 10),
-    antigen_attack([Host, Host], Antigen),
-    settled(File, 3),
-    count(File, memory_cell(_), 1).
-
+          [Host], File,
+        ( bits('00000', Antigen),
+          release(Host, [], '11111'-[], _),
+          antigen_attack([Host], Antigen),
+          settled(File, 1),
+          wait_until(count(File, memory_cell(_), 1), 10),
+          antigen_attack([Host, Host], Antigen),
+          settled(File, 3),
+          count(File, memory_cell(_), 1) )).
 test(no_clone_above_the_crowding_limit) :-
-    sieve(ring(1), [], [gather-1], crowd).
+    sieve(ring(1), [], [gather-1], Hosts, File, crowd(Hosts, File)).
 
 crowd([Host], File) :-
     bits('00000', Antigen),
@@ -265,24 +250,18 @@ crowd([Host], File) :-
     settled(File, 2),
     count(File, born(clone, _), 0).
 test(guard_survives_unknown_antigens) :-
-    sieve(ring(1), [], [patience-0.5], unknown_antigen).
-
-unknown_antigen([Host], File) :-
-    bits('00000', Antigen),
-    antigen_attack([Host], bolt),
-    antigen_attack([Host], Antigen),
-    settled(File, 1),
-    count(File, unanswered(bolt), 1).
-
+    sieve(ring(1), [], [patience-0.5], [Host], File,
+        ( bits('00000', Antigen),
+          antigen_attack([Host], bolt),
+          antigen_attack([Host], Antigen),
+          settled(File, 1),
+          count(File, unanswered(bolt), 1) )).
 test(failed_draw_gives_no_answer) :-
-    sieve(ring(1), [], [patience-0.5, draws-0], nothing_drawn).
-
-nothing_drawn([Host], File) :-
-    bits('00000', Antigen),
-    antigen_attack([Host], Antigen),
-    wait_until(count(File, unanswered(Antigen), 1), 20),
-    count(File, generated(_, _, _), 0).
-
+    sieve(ring(1), [], [patience-0.5, draws-0], [Host], File,
+        ( bits('00000', Antigen),
+          antigen_attack([Host], Antigen),
+          wait_until(count(File, unanswered(Antigen), 1), 20),
+          count(File, generated(_, _, _), 0) )).
 test(unknown_guard, error(existence_error(guard, _))) :-
     with_hosts([alpha], ( address(alpha, Address),
                           antigen_attack([Address], x) )).
@@ -293,7 +272,7 @@ test(unknown_guard, error(existence_error(guard, _))) :-
 
 test(ten_hosts_in_two_processes) :-
     sieve(random(10, 0.3), [processes(2), hop_time(uniform(0.2, 0.4))],
-          [patience-4, gather-2], attacks).
+          [patience-4, gather-2], Hosts, File, attacks(Hosts, File)).
 
 attacks(Hosts, File) :-
     bits('00000', A),
@@ -320,39 +299,34 @@ attacks(Hosts, File) :-
 test(programs_are_sieved) :-
     sieve(ring(1), [],
           [application(payloads(sieve/maze)), gather-2, patience-400],
-          programs).
-
-programs([Host], File) :-
-    First = [(left:-wall(ahead)), (right:-free(right),after(forward))],
-    Second = [(forward:-after(left)), (right:-goal(right))],
-    forall(member(Program, [First, Second]),
-           antibody_release(Host, payloads(sieve/maze), Program, [], _)),
-    antigen_attack([Host], wall(left)),
-    settled(File, 1),
-    log_entries(File, All),
-    member(served(wall(left), Program, _, _), All),
-    memberchk(Program, [First, Second]).
-
+          [Host], File,
+        ( First = [(left:-wall(ahead)), (right:-free(right),after(forward))],
+          Second = [(forward:-after(left)), (right:-goal(right))],
+          forall(member(Program, [First, Second]),
+                 antibody_release(Host, payloads(sieve/maze), Program, [], _)),
+          antigen_attack([Host], wall(left)),
+          settled(File, 1),
+          log_entries(File, All),
+          member(served(wall(left), Program, _, _), All),
+          memberchk(Program, [First, Second]) )).
 test(clones_age) :-
     sieve(ring(3), [hop_time(uniform(0.2, 0.4))],
-          [omega-3, gather-1, patience-100], ages).
-
-ages(Hosts, File) :-
-    Hosts = [Host|_],
-    bits('00000', Antigen),
-    bits('11111', Antibody),
-    release(Host, [omega-3], '11111'-[], _),
-    antigen_attack(Hosts, Antigen),
-    wait_until(( count(File, born(clone, Antibody), Clones),
-                 Clones > 0 ), 20),
-    wait_until(( count(File, died(aged, Antibody), Died),
-                 Died > 0 ), 20).
+          [omega-3, gather-1, patience-100], Hosts, File,
+        ( Hosts = [Host|_],
+          bits('00000', Antigen),
+          bits('11111', Antibody),
+          release(Host, [omega-3], '11111'-[], _),
+          antigen_attack(Hosts, Antigen),
+          wait_until(( count(File, born(clone, Antibody), Clones),
+                       Clones > 0 ), 20),
+          wait_until(( count(File, died(aged, Antibody), Died),
+                       Died > 0 ), 20) )).
 
 %   No more agents than the hosts admit, however many attacks there are.
 
 test(attack_storm) :-
     sieve(ring(4), [hosts([capacity(5)]), hop_time(uniform(0.1, 0.2))],
-          [patience-0.4, gather-0.2, crowd-5], storm).
+          [patience-0.4, gather-0.2, crowd-5], Hosts, File, storm(Hosts, File)).
 
 storm(Hosts, File) :-
     numlist(1, 12, Times),

@@ -1,4 +1,5 @@
-:- use_module('../../lib/common', [wait_until/2, with_tmp_dir/1]).
+:- use_module('../../lib/common', [wait_until/2]).
+:- use_module('../../lib/networks').
 :- use_module('../../lib/fake_agent').
 :- use_module(library(aggregate)).
 :- use_module(library(apply)).
@@ -250,21 +251,6 @@ test(only_active_specialists_clone, Moods == [active]) :-
                 *            NETWORK           *
                 *******************************/
 
-%   Ten hosts in two processes, three tasks.  The log is checked.
-
-on_network(Goal, Dir) :-
-    atomic_list_concat([Dir, '/events.pl'], Log),
-    findall(I-J, ( between(1, 10, I), member(D, [1, 3]),
-                   J is (I + D - 1) mod 10 + 1 ), Edges),
-    setup_call_cleanup(
-        network_start(edges(Edges), Network,
-                      [ processes(2), seed(3), clock(15), log(Log),
-                        hosts([capacity(6)]), hop_time(uniform(0.1, 0.3)) ]),
-        ( network_property(Network, hosts(Hosts)),
-          call(Goal, Hosts, Log)
-        ),
-        network_stop(Network)).
-
 state(Log, State) :-
     exists_file(Log),
     log_events(Log, Events),
@@ -280,22 +266,68 @@ in_progress(Log, Task) :-
     track_done(State, Task, Count),
     Count > 0.
 
-%   Two hosts lose their first task when the others have the third.
+%   Three hosts in this process.
 
-whole_life(Hosts, Log) :-
-    population_start(main, Hosts, [1-sleep(1), 2-sleep(1), 3-sleep(1)],
-                     [ seed(3),
-                       settings([threshold-5, rounding-floor, tick-0.5]) ], Agents),
-    length(Agents, 3),
-    wait_until(in_progress(Log, 3), 30),
-    Hosts = [A,B|_],
-    task_fail(main, 1, [A, B], Failed),
-    Failed == [A, B],
-    wait_until(settled(Log, 10), 30).
+furnished(Hosts, Goal) :-
+    with_network(ring(3), [clock(20), log('/dev/null')], _, Hosts, Goal).
 
-check_life(Dir) :-
-    atomic_list_concat([Dir, '/events.pl'], Log),
-    log_events(Log, Events),
+loads(Hosts, Loads) :-
+    findall(Load, ( member(Host, Hosts), remote(Host, host_load(Load)) ),
+            Loads).
+
+born(Agent, Hosts, Name, Place) :-
+    agent_property(Agent, home(Home)),
+    nth1(Place, Hosts, Home),
+    sub_atom(Agent, Dot, _, _, '.'),
+    !,
+    sub_atom(Agent, 0, Dot, _, Name).
+
+:- begin_tests(population).
+
+%   A queue for all, a worker for each sequence.
+
+test(one_queue_and_one_worker_per_host, Loads == [3, 2, 2]) :-
+    furnished(Hosts,
+        ( Hosts = [Host|_],
+          population_start(house, Hosts, [], [], []),
+          population_start(boat, [Host], [], [], []),
+          population_start(house, Hosts, [], [], []),
+          loads(Hosts, Loads) )).
+test(start_on_given_hosts, Places == [agent1-3, agent2-1, agent3-3]) :-
+    furnished(Hosts,
+        ( Hosts = [A, _, C],
+          population_start(house, Hosts, [floor-true, walls-true, roof-true],
+                           [starts([C, A])], Agents),
+          findall(Name-Place, ( member(Agent, Agents),
+                                born(Agent, Hosts, Name, Place) ),
+                  Places),
+          maplist(agent_dispose, Agents) )).
+test(no_tasks, error(type_error(pair, floor))) :-
+    population_start(house, [], [floor], [], _).
+test(nowhere_to_start, error(domain_error(hosts, []))) :-
+    population_start(house, [], [floor-true], [], _).
+
+%   Ten hosts in two processes, three tasks. Two hosts lose their first task
+%   when the others have the third. The log is checked.
+
+test(specialists_live_and_heal) :-
+    findall(I-J, ( between(1, 10, I), member(D, [1, 3]),
+                   J is (I + D - 1) mod 10 + 1 ), Edges),
+    with_logged_network(
+        edges(Edges),
+        [ processes(2), seed(3), clock(15), hosts([capacity(6)]),
+          hop_time(uniform(0.1, 0.3)) ],
+        Hosts, Log,
+        ( population_start(main, Hosts, [1-sleep(1), 2-sleep(1), 3-sleep(1)],
+                           [ seed(3),
+                             settings([ threshold-5, rounding-floor,
+                                        tick-0.5 ]) ], Agents),
+          length(Agents, 3),
+          wait_until(in_progress(Log, 3), 30),
+          Hosts = [A,B|_],
+          task_fail(main, 1, [A, B], Failed),
+          Failed == [A, B],
+          wait_until(settled(Log, 10), 30) ), Events),
     executions(Events, All),
     again(All, First, Again),
     length(First, 30),
@@ -308,57 +340,5 @@ check_life(Dir) :-
     Most =< 40,                         % of four in each of ten queues
     aggregate_all(count, member(event(_, _, _, state(death)), Events), Dead),
     aggregate_all(count, member(event(_, _, _, cloned), Events), Dead).
-
-%   Three hosts in this process.
-
-furnished(Goal) :-
-    setup_call_cleanup(
-        network_start(ring(3), Network, [clock(20), log('/dev/null')]),
-        ( network_property(Network, hosts(Hosts)),
-          call(Goal, Hosts)
-        ),
-        network_stop(Network)).
-
-loads(Hosts, Loads) :-
-    findall(Load, ( member(Host, Hosts), remote(Host, host_load(Load)) ),
-            Loads).
-
-%   A queue for all, a worker for each sequence.
-
-two_sequences(Loads, Hosts) :-
-    Hosts = [Host|_],
-    population_start(house, Hosts, [], [], []),
-    population_start(boat, [Host], [], [], []),
-    population_start(house, Hosts, [], [], []),
-    loads(Hosts, Loads).
-
-start_at(Properties, Hosts) :-
-    Hosts = [A, _, C],
-    population_start(house, Hosts, [floor-true, walls-true, roof-true],
-                     [starts([C, A])], Agents),
-    findall(Name-Place, ( member(Agent, Agents),
-                          born(Agent, Hosts, Name, Place) ),
-            Properties),
-    maplist(agent_dispose, Agents).
-
-born(Agent, Hosts, Name, Place) :-
-    agent_property(Agent, home(Home)),
-    nth1(Place, Hosts, Home),
-    sub_atom(Agent, Dot, _, _, '.'),
-    !,
-    sub_atom(Agent, 0, Dot, _, Name).
-
-:- begin_tests(population).
-
-test(one_queue_and_one_worker_per_host, Loads == [3, 2, 2]) :-
-    furnished(two_sequences(Loads)).
-test(start_on_given_hosts, Places == [agent1-3, agent2-1, agent3-3]) :-
-    furnished(start_at(Places)).
-test(no_tasks, error(type_error(pair, floor))) :-
-    population_start(house, [], [floor], [], _).
-test(nowhere_to_start, error(domain_error(hosts, []))) :-
-    population_start(house, [], [floor-true], [], _).
-test(specialists_live_and_heal) :-
-    with_tmp_dir([Dir]>>( on_network(whole_life, Dir), check_life(Dir) )).
 
 :- end_tests(population).

@@ -1,5 +1,6 @@
 :- module(test_sync_network, []).
 :- use_module('../../lib/common').
+:- use_module('../../lib/networks').
 :- use_module(library(plunit)).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
@@ -405,9 +406,20 @@ elsewhere(Goal, Result) :-
 :- begin_tests(sync_here).
 
 test(no_overlap_in_twenty_runs) :-
-    here([], twenty_runs).
+    here([],
+        ( forall(member(First, [1, 5, 9, 13, 17]), four_runs(First)),
+          forall(between(1, 20, Run), run_was_in_step(Run)) )).
 test(links_come_and_go, [ forall(dynamics(Model)) ]) :-
-    here([dynamic(Model)], in_order).
+    here([dynamic(Model)],
+        ( hosts(Hosts),
+          tasks([1, 2, 3], Tasks),
+          sequence_start(dynamic, Hosts, Tasks,
+                         [ agents(2), seed(1),
+                           settings([delta-0.2, patience-0.05]) ], Agents),
+          all_end(Agents),
+          histories(dynamic, 24, Histories),
+          executed([1, 2, 3], History),
+          maplist(==(History), Histories) )).
 
 here(Options, Goal) :-
     no_leaks(setup_call_cleanup(
@@ -418,21 +430,6 @@ here(Options, Goal) :-
 
 dynamics(toggle(uniform(0.1, 0.2), 0.5, 0.7)).
 dynamics(links(uniform(0.1, 0.2), 0.5, 0.7)).
-
-in_order :-
-    hosts(Hosts),
-    tasks([1, 2, 3], Tasks),
-    sequence_start(dynamic, Hosts, Tasks,
-                   [ agents(2), seed(1),
-                     settings([delta-0.2, patience-0.05]) ], Agents),
-    all_end(Agents),
-    histories(dynamic, 24, Histories),
-    executed([1, 2, 3], History),
-    maplist(==(History), Histories).
-
-twenty_runs :-
-    forall(member(First, [1, 5, 9, 13, 17]), four_runs(First)),
-    forall(between(1, 20, Run), run_was_in_step(Run)).
 
 four_runs(First) :-
     Last is First+3,
@@ -464,19 +461,15 @@ run_was_in_step(Run) :-
 
 virtual_log(Text) :-
     tmp_file(events, File),
-    setup_call_cleanup(
-        network_start(ring(4), Network,
-                      [ clock(virtual), seed(1), hop_time(uniform(1, 2)),
-                        log(File, [facts]) ]),
-        ( network_property(Network, hosts(Hosts)),
-          tasks([1, 2], Tasks),
+    with_network(ring(4), [ clock(virtual), seed(1), hop_time(uniform(1, 2)),
+                            log(File, [facts]) ], Network, Hosts,
+        ( tasks([1, 2], Tasks),
           start(house, Hosts, Tasks, Agents),
           network_advance(Network, 3),
           tasks([1, 2, 3], More),
           sequence_change(house, Hosts, More),
           forall(member(Agent, Agents),
-                 agent_join(Agent, done, 86400)) ),
-        network_stop(Network)),
+                 agent_join(Agent, done, 86400)) )),
     read_file_to_string(File, Text, []),
     delete_file(File).
 
