@@ -2,10 +2,11 @@
           [ with_network/4,             % +Topology, +Options, -Network, :Goal
             with_network/5,             % +Topology, +Options, -Network, -Hosts,
                                         % :Goal
+            with_loaded_network/3,      % +File, -Network, :Goal
             with_logged_network/6       % +Topology, +Options, -Hosts, -File,
                                         % :Goal, -Events
           ]).
-:- use_module(common, [with_tmp_dir/2]).
+:- use_module(common, [no_leaks/1, with_tmp_dir/2]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(typhon)).
 
@@ -17,23 +18,34 @@
 :- meta_predicate
     with_network(+, +, -, 0),
     with_network(+, +, -, -, 0),
+    with_loaded_network(+, -, 0),
     with_logged_network(+, +, -, -, 0, -).
 
 %!  with_network(+Topology, +Options, -Network, :Goal) is semidet.
 %!  with_network(+Topology, +Options, -Network, -Hosts, :Goal) is semidet.
 %
-%   Calls Goal, which may stop Network itself, once.
+%   Calls Goal, which may stop Network itself, once. Nothing may be left
+%   afterwards.
 
 with_network(Topology, Options, Network, Goal) :-
-    setup_call_cleanup(
-        network_start(Topology, Network, Options),
-        once(Goal),
-        catch(network_stop(Network), error(existence_error(network, _), _),
-              true)).
+    running(network_start(Topology, Network, Options), Network, Goal).
+
+running(Start, Network, Goal) :-
+    no_leaks(setup_call_cleanup(Start, once(Goal), stopped(Network))).
+
+stopped(Network) :-
+    catch(network_stop(Network), error(existence_error(network, _), _), true).
 
 with_network(Topology, Options, Network, Hosts, Goal) :-
     with_network(Topology, Options, Network,
                  ( network_property(Network, hosts(Hosts)), Goal )).
+
+%!  with_loaded_network(+File, -Network, :Goal) is semidet.
+%
+%   As with_network/4, with the Network that was saved in File.
+
+with_loaded_network(File, Network, Goal) :-
+    running(network_load(File, Network, []), Network, Goal).
 
 %!  with_logged_network(+Topology, +Options, -Hosts, -File, :Goal, -Events)
 %!  is semidet.

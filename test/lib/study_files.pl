@@ -1,6 +1,8 @@
 :- module(test_study_files,
           [ with_study/2,               % +Lines, :Goal
+            with_study/3,               % +Lines, -Study, :Goal
             with_study_file/2,          % +Lines, :Goal
+            with_study_file/4,          % +Lines, -Dir, -File, :Goal
             save_lines/3,               % +Dir, +Name, +Lines
             study_command/4,            % +Dir, +Arguments, -Status, -Text
             study_messages/2,           % :Goal, -Text
@@ -21,29 +23,33 @@
 
 :- meta_predicate
     with_study(+, 1),
+    with_study(+, -, 0),
     with_study_file(+, 2),
+    with_study_file(+, -, -, 0),
     study_messages(0, -).
 
 %!  with_study(+Lines, :Goal) is semidet.
+%!  with_study(+Lines, -Study, :Goal) is semidet.
 %!  with_study_file(+Lines, :Goal) is semidet.
+%!  with_study_file(+Lines, -Dir, -File, :Goal) is semidet.
 %
-%   Call Goal(Study), or Goal(Dir, File), with a study that has Lines, in a
-%   directory of its own.
+%   Call Goal, or Goal(Study), or Goal(Dir, File), with a study that has Lines,
+%   in a directory of its own.
 
 with_study(Lines, Goal) :-
-    with_study_file(Lines, load_and(Goal)).
+    with_study(Lines, Study, call(Goal, Study)).
 
-load_and(Goal, _, File) :-
-    study_load(File, Study),
-    call(Goal, Study).
+with_study(Lines, Study, Goal) :-
+    with_study_file(Lines, _, File, ( study_load(File, Study), Goal )).
 
 with_study_file(Lines, Goal) :-
-    with_tmp_dir(made_up(Lines, Goal)).
+    with_study_file(Lines, Dir, File, call(Goal, Dir, File)).
 
-made_up(Lines, Goal, Dir) :-
-    save_lines(Dir, 'study.pl', Lines),
-    directory_file_path(Dir, 'study.pl', File),
-    call(Goal, Dir, File).
+with_study_file(Lines, Dir, File, Goal) :-
+    with_tmp_dir(Dir,
+                 ( save_lines(Dir, 'study.pl', Lines),
+                   directory_file_path(Dir, 'study.pl', File),
+                   Goal )).
 
 %!  save_lines(+Dir, +Name, +Lines) is det.
 

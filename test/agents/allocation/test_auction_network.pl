@@ -31,13 +31,13 @@ auctions(Mechanism, Topology, Options0, Robots, Hosts, File, Goal) :-
     select_option(auction(AuctionOptions), Options0, Options1, []),
     select_option(clock(Clock), Options1, Options, 100),
     unhurried(AuctionOptions, Unhurried),
-    no_leaks(with_logged_network(
-                 Topology, [clock(Clock), seed(1)|Options], Hosts, File,
-                 ( forall(( member(I, Robots), nth1(I, Hosts, Host) ),
-                          robot_start(Host, [push, position=p(I,0)],
-                                      [settings([watch-6000, patience-1000])])),
-                   auction_start(Mechanism, Hosts, Unhurried),
-                   Goal ), Events)),
+    with_logged_network(
+        Topology, [clock(Clock), seed(1)|Options], Hosts, File,
+        ( forall(( member(I, Robots), nth1(I, Hosts, Host) ),
+                 robot_start(Host, [push, position=p(I,0)],
+                             [settings([watch-6000, patience-1000])])),
+          auction_start(Mechanism, Hosts, Unhurried),
+          Goal ), Events),
     reservation_faults(Events, Faults),
     exclude(died, Faults, []).
 
@@ -112,7 +112,7 @@ passed_on(Network) :-
 :- begin_tests(auction_flood_network).
 
 test(message_before_the_peers_are_known_is_forwarded) :-
-    no_leaks(with_network(line(3), [], Network, passed_on(Network))).
+    with_network(line(3), [], Network, passed_on(Network)).
 
 %   There are no bids, so one flood is sent: 2E - (N-1) messages.
 
@@ -363,7 +363,7 @@ test(a_host_gets_one_node, Loads == [1, 1]) :-
                  auction_start(murdoch, Hosts, []),
                  findall(Load, ( member(H, Hosts),
                                  remote(H, host_load(Load)) ), Loads) )).
-test(diameter, [Level] == [3]) :-
+test(diameter, Level == 3) :-
     auctions(anta, grid(2,3), [hop_time(uniform(0.2, 0.5)),
                                auction([slack(2)])], [], [Host|_], _,
         ( remote(Host, sense(node(anta, Node))),

@@ -28,8 +28,8 @@ setting(size, 5).
 :- meta_predicate network(+, +, -, -, 0).
 
 network(Topology, Options, Hosts, File, Goal) :-
-    no_leaks(with_logged_network(Topology, [clock(100), seed(1)|Options],
-                                 Hosts, File, Goal, _)).
+    with_logged_network(Topology, [clock(100), seed(1)|Options],
+                        Hosts, File, Goal, _).
 
 learn(Hosts, Options, Agents) :-
     learn(Hosts, [], Options, Agents).
@@ -99,7 +99,8 @@ test(without_sharing_no_units_are_exchanged) :-
           logged(File, Events),
           \+ memberchk(event(_, _, _, shared(_, _)), Events) )).
 test(full_queue) :-
-    network(mesh(3), [hosts([capacity(2)])], Hosts, File, full_queue(Hosts, File)).
+    network(mesh(3), [hosts([capacity(2)])], Hosts, File,
+            full_queue(Hosts, File)).
 
 %   At A, which has lost its link, the agent retries until it succeeds.
 

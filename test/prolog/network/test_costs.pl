@@ -1,5 +1,6 @@
 :- module(test_costs, []).
 :- use_module('../../lib/common').
+:- use_module('../../lib/networks').
 :- use_module('../../lib/fixtures').
 :- use_module(library(plunit)).
 :- use_module(library(apply), [maplist/3]).
@@ -10,14 +11,6 @@
 
 *Threading*: one test at a time.
 */
-
-:- meta_predicate with_network(+, +, -, 0).
-
-with_network(Topology, Options, Network, Goal) :-
-    no_leaks(setup_call_cleanup(
-                 network_start(Topology, Network, Options),
-                 once(Goal),
-                 network_stop(Network))).
 
 %   costs_at(+Host, -Costs): the costs of the links of Host, by the names of
 %   their other hosts.
@@ -137,12 +130,9 @@ costs(Costs) :-
             Costs).
 
 test(costs_in_several_processes, [C1,C2,C4] == [[n2-5],[n1-5,n3-8],[n3-5]]) :-
-    no_leaks(setup_call_cleanup(
-                 network_start(edges([n1-n2, n2-n3-cost(8), n3-n4]), Network,
-                               [processes(2), cost(5)]),
-                 ( network_property(Network, hosts([A1,A2,_,A4])),
-                   maplist(costs_at, [A1,A2,A4], [C1,C2,C4]) ),
-                 network_stop(Network))).
+    with_network(edges([n1-n2, n2-n3-cost(8), n3-n4]),
+                 [processes(2), cost(5)], _, [A1,A2,_,A4],
+        maplist(costs_at, [A1,A2,A4], [C1,C2,C4])).
 test(invalid_cost, error(domain_error(cost, dear))) :-
     network_start(line(2), _, [cost(dear)]).
 test(negative_cost, error(domain_error(cost, -1))) :-

@@ -1,5 +1,6 @@
 :- module(test_dynamics, []).
 :- use_module('../../lib/common').
+:- use_module('../../lib/networks').
 :- use_module('../../lib/virtual_networks', [network_history/5]).
 :- use_module(library(plunit)).
 :- use_module(library(aggregate), [aggregate_all/3]).
@@ -21,10 +22,6 @@
 history(Model, Topology, Seed, Until, N, Edges, Changes) :-
     network_history(Topology, [dynamic(Model), seed(Seed)], Until,
                     shape(N, Edges, _), Changes).
-
-links_after(Edges, Changes, Links) :-
-    foldl(apply_change, Changes, Edges, Links0),
-    sort(Links0, Links).
 
 apply_change(_-link(I, J), L, [I-J|L]) :-
     assertion(\+ memberchk(I-J, L)).
@@ -82,7 +79,8 @@ test(changes_lead_to_the_current_links,
        true(Links == Last) ]) :-
     network_history(grid(6, 10), [dynamic(M), seed(1)], 400,
                     shape(_, First, Last), Changes),
-    links_after(First, Changes, Links).
+    foldl(apply_change, Changes, First, Links0),
+    sort(Links0, Links).
 test(times_ascend, Times == Sorted) :-
     history(random_links, grid(6, 10), 1, 400, _, _, Changes),
     findall(T, member(T-_, Changes), Times),
@@ -155,7 +153,13 @@ test(changes_occur_in_order_and_not_too_early) :-
     length(First, Made),
     length(Virtual, Count),
     Logged is Made + Count,
-    with_tmp_dir(real_history(Logged, Real)),
+    with_tmp_dir(Dir,
+        ( directory_file_path(Dir, 'links.pl', File),
+          with_network(grid(6, 10),
+                       [ clock(100), dynamic(random_links), seed(1),
+                         log(File, [links]) ], _, Hosts,
+              ( wait_until(( changed(File, Hosts, Real), length(Real, N),
+                             N >= Logged ), 60) )) )),
     length(Links, Made),
     append(Links, Changes, Real),
     length(Begun, Count),
@@ -163,17 +167,6 @@ test(changes_occur_in_order_and_not_too_early) :-
     forall(nth1(I, Begun, Time-Change),
            ( nth1(I, Virtual, Due-Change),
              assertion(Time >= Due) )).
-
-real_history(Count, Changes, Dir) :-
-    directory_file_path(Dir, 'links.pl', File),
-    setup_call_cleanup(
-        network_start(grid(6, 10), Network,
-                      [ clock(100), dynamic(random_links), seed(1),
-                        log(File, [links]) ]),
-        ( network_property(Network, hosts(Hosts)),
-          wait_until(( changed(File, Hosts, Changes), length(Changes, N),
-                       N >= Count ), 60) ),
-        network_stop(Network)).
 
 %   The initial links come first, on a slow machine after some time.
 

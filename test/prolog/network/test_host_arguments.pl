@@ -1,6 +1,7 @@
 :- module(test_host_arguments, []).
 :- use_module(library(plunit)).
 :- use_module('../../lib/common').
+:- use_module('../../lib/networks').
 :- use_module('../../lib/fixtures').
 :- use_module(library(apply)).
 :- use_module(library(lists)).
@@ -69,16 +70,13 @@ ends_with(ros_stop, existence_error(ros, _)).
 ends_with(host_stop, existence_error(host, _)).
 
 with_network(Goal) :-
-    no_leaks(setup_call_cleanup(
-                 network_start(edges([inn-mill, mill-farm]), Network,
-                               [processes(3)]),
-                 ( create([on_message(_, _)], _, [name(bob), host(inn)]),
-                   create([on_message(_, _)], Eve, [host(inn)]),
-                   tmp_file(saved, File),
-                   agent_save(Eve, File),
-                   nb_setval(test_saved, File),
-                   call(Goal) ),
-                 network_stop(Network))).
+    with_network(edges([inn-mill, mill-farm]), [processes(3)], _,
+        ( create([on_message(_, _)], _, [name(bob), host(inn)]),
+          create([on_message(_, _)], Eve, [host(inn)]),
+          tmp_file(saved, File),
+          agent_save(Eve, File),
+          nb_setval(test_saved, File),
+          call(Goal) )).
 
 outcome(Goal, Outcome) :-
     (   catch(Goal, error(Formal, Context), true)

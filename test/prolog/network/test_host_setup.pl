@@ -1,5 +1,6 @@
 :- module(test_host_setup, []).
 :- use_module('../../lib/common').
+:- use_module('../../lib/networks').
 :- use_module(library(plunit)).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2]).
@@ -10,14 +11,6 @@
 
 *Threading*: one test at a time.
 */
-
-:- meta_predicate with_network(+, +, -, 0).
-
-with_network(Topology, Options, Network, Goal) :-
-    no_leaks(setup_call_cleanup(
-                 network_start(Topology, Network, Options),
-                 once(Goal),
-                 network_stop(Network))).
 
 %   with_files(-Shop, -Bank, :Goal): Shop and Bank are files for places.
 

@@ -2,7 +2,7 @@
 :- use_module('../../lib/common').
 :- use_module(library(plunit)).
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(apply), [maplist/3]).
+:- use_module(library(thread), [concurrent_forall/3]).
 :- use_module(library(filesex),
               [chmod/2, directory_file_path/3, link_file/3]).
 :- use_module(library(lists), [member/2, numlist/3]).
@@ -13,18 +13,16 @@
               [endpoint_address/1, endpoint_post/3, endpoint_stop/0]).
 :- use_module(library(typhon)).
 
-%   with_log(+Options, :Goal): Goal(Address, File), with a server running.
+%   with_log(+Options, -Address, -File, :Goal, -Events): with a server running.
 
-:- meta_predicate with_log(+, 2, -).
+:- meta_predicate with_log(+, -, -, 0, -).
 
-with_log(Options, Goal, Events) :-
-    with_tmp_dir(with_log_in(Options, Goal, Events)).
-
-with_log_in(Options, Goal, Events, Dir) :-
-    directory_file_path(Dir, 'events.pl', File),
-    log_server_start([file(File)|Options], Address),
-    call_cleanup(once(call(Goal, Address, File)), log_server_stop(Address)),
-    log_events(File, Events).
+with_log(Options, Address, File, Goal, Events) :-
+    with_tmp_dir(Dir,
+                 ( directory_file_path(Dir, 'events.pl', File),
+                   log_server_start([file(File)|Options], Address),
+                   call_cleanup(once(Goal), log_server_stop(Address)),
+                   log_events(File, Events) )).
 
 arrives(Address, Host, Agent, What) :-
     typhon_endpoint:received(log, event(Address, Host, Agent, What), tester).
@@ -82,15 +80,13 @@ stop_endpoint :-
     ).
 
 test(address) :-
-    with_log([], address, _).
-
-address(Address, _) :-
-    endpoint_address(Endpoint),
-    atom_concat('log@', Endpoint, Address).
+    with_log([], Address, _,
+             ( endpoint_address(Endpoint),
+               atom_concat('log@', Endpoint, Address) ), _).
 
 test(events_are_stamped_in_order_of_arrival, Times == Sorted) :-
     get_time(T0),
-    with_log([], hundred, Events),
+    with_log([], Address, _, hundred(Address), Events),
     get_time(T1),
     findall(N, member(event(_, h, a, step(N)), Events), Ns),
     numlist(1, 100, Ns),
@@ -98,136 +94,97 @@ test(events_are_stamped_in_order_of_arrival, Times == Sorted) :-
     msort(Times, Sorted),
     forall(member(T, Times), ( T > T0 - 0.001, T < T1 + 0.001 )).
 
-hundred(Address, _) :-
+hundred(Address) :-
     forall(between(1, 100, N), arrives(Address, h, a, step(N))).
 
 test(received_events_are_read_at_once) :-
-    with_log([], read_at_once, _).
-
-read_at_once(Address, File) :-
-    forall(between(1, 100, N),
-           ( arrives(Address, h, a, step(N)),
-             log_events(File, Events),
-             assertion(length(Events, N)) )).
-
+    with_log([], Address, File,
+        ( forall(between(1, 100, N),
+                 ( arrives(Address, h, a, step(N)),
+                   log_events(File, Events),
+                   assertion(length(Events, N)) )) ), _).
 test(clock) :-
     get_time(Now),
     Epoch is Now - 10,
-    with_log([clock(Epoch, 50)], one(x), [event(Time, h, a, x)]),
+    with_log([clock(Epoch, 50)], Address, _,
+        arrives(Address, h, a, x), [event(Time, h, a, x)]),
     get_time(After),
     Time >= 500,
     Time < (After-Epoch)*50.
-
-one(What, Address, _) :-
-    arrives(Address, h, a, What).
-
 test(every_term_reads_back) :-
     findall(X, odd_term(X), Odd),
-    with_log([], odd, Events),
+    with_log([], Address, _, odd(Address), Events),
     findall(X, member(event(_, h, a, X), Events), Read),
     Read =@= Odd.
 test(one_fact_per_line) :-
-    with_log([], odd_lines, _).
+    with_log([], Address, File,
+        ( odd(Address),
+          aggregate_all(count, odd_term(_), Count),
+          wait_until(( read_file_to_string(File, Text, [encoding(octet)]),
+                       split_string(Text, "\n", "", Lines),
+                       length(Lines, Length),
+                       Length =:= Count + 1 ), 5),
+          string_codes(Text, Codes),
+          forall(member(Code, Codes), Code < 128) ), _).
 
-odd(Address, _) :-
+odd(Address) :-
     forall(odd_term(X), arrives(Address, h, a, X)).
 
-odd_lines(Address, File) :-
-    odd(Address, File),
-    aggregate_all(count, odd_term(_), Count),
-    wait_until(( read_file_to_string(File, Text, [encoding(octet)]),
-                 split_string(Text, "\n", "", Lines),
-                 length(Lines, Length),
-                 Length =:= Count + 1 ), 5),
-    string_codes(Text, Codes),
-    forall(member(Code, Codes), Code < 128).
-
 test(readable_under_any_operator_table) :-
-    with_tmp_dir(consult_odd).
-
-consult_odd(Dir) :-
-    directory_file_path(Dir, 'events.pl', File),
-    log_server_start([file(File)], Address),
-    odd(Address, File),
-    log_server_stop(Address),
-    Ops = [op(200, xfy, event), op(700, fx, h), op(0, xfx, :-),
-           op(0, yfx, -), op(0, fy, -), op(900, yf, a)],
-    forall(member(op(P, T, N), Ops), op(P, T, test_log_reader:N)),
-    load_files(test_log_reader:File, [silent(true)]),
-    findall(X, test_log_reader:event(_, h, a, X), Read),
-    findall(X, odd_term(X), Odd),
-    Read =@= Odd.
-
+    with_tmp_dir(Dir,
+        ( directory_file_path(Dir, 'events.pl', File),
+          log_server_start([file(File)], Address),
+          odd(Address),
+          log_server_stop(Address),
+          Ops = [op(200, xfy, event), op(700, fx, h), op(0, xfx, :-),
+                 op(0, yfx, -), op(0, fy, -), op(900, yf, a)],
+          forall(member(op(P, T, N), Ops), op(P, T, test_log_reader:N)),
+          load_files(test_log_reader:File, [silent(true)]),
+          findall(X, test_log_reader:event(_, h, a, X), Read),
+          findall(X, odd_term(X), Odd),
+          Read =@= Odd )).
 test(buffer_is_written_when_idle) :-
-    with_log([], seen_at_once, _).
-
-seen_at_once(Address, File) :-
-    arrives(Address, h, a, x),
-    wait_until(log_events(File, [_]), 5).
-
+    with_log([], Address, File,
+        ( arrives(Address, h, a, x),
+          wait_until(log_events(File, [_]), 5) ), _).
 test(stop_writes_buffered_events, Count == 20000) :-
-    with_log([], many, Events),
+    with_log([], Address, _,
+        forall(between(1, 20000, N), arrives(Address, h, a, N)), Events),
     length(Events, Count).
-
-many(Address, _) :-
-    forall(between(1, 20000, N), arrives(Address, h, a, N)).
-
 test(posts_of_this_process_arrive_before_the_stop, Numbers == Expected) :-
     numlist(1, 5000, Expected),
-    with_log([], posts(Expected), Events),
+    with_log([], Address, _,
+             ( endpoint_address(Endpoint),
+               forall(member(N, Expected),
+                      endpoint_post(Endpoint, log, event(Address, h, a, N))) ),
+             Events),
     findall(N, member(event(_, h, a, N), Events), Numbers).
-
-posts(Numbers, Address, _) :-
-    endpoint_address(Endpoint),
-    forall(member(N, Numbers),
-           endpoint_post(Endpoint, log, event(Address, h, a, N))).
-
 test(many_senders_at_once) :-
     numlist(1, 8, Threads),
-    with_log([], senders(Threads), Events),
+    with_log([], Address, _,
+        concurrent_forall(member(T, Threads),
+                          forall(between(1, 500, N),
+                                 arrives(Address, T, a, N)),
+                          [threads(8)]), Events),
     numlist(1, 500, Steps),
     forall(member(T, Threads),
            ( findall(N, member(event(_, T, a, N), Events), Ns),
              Ns == Steps )).
 
-senders(Threads, Address, _) :-
-    maplist(start_sender(Address), Threads, Ids),
-    forall(member(Id, Ids), thread_join(Id, true)).
-
-start_sender(Address, T, Id) :-
-    thread_create(sender(Address, T), Id).
-
-sender(Address, T) :-
-    forall(between(1, 500, N), arrives(Address, T, a, N)).
-
 test(two_servers_in_one_process, A-B == [to(a)]-[to(b)]) :-
-    with_log([name(a)], second(EventsB), EventsA),
+    with_log([name(a)], AddressA, _,
+        with_log([name(b)], AddressB, _,
+            ( arrives(AddressA, h, x, to(a)),
+              arrives(AddressB, h, x, to(b)) ), EventsB), EventsA),
     findall(W, member(event(_, _, _, W), EventsA), A),
     findall(W, member(event(_, _, _, W), EventsB), B).
-
-second(Events, AddressA, _) :-
-    with_log([name(b)], both(AddressA), Events).
-
-both(AddressA, AddressB, _) :-
-    arrives(AddressA, h, x, to(a)),
-    arrives(AddressB, h, x, to(b)).
-
 test(started_twice, error(permission_error(start, log_server, log))) :-
-    with_log([], again, _).
+    with_log([], _, _, with_log([], _, _, true, _), _).
 test(started_again_after_an_error, Events == []) :-
-    with_log([], nothing, Events).
+    with_log([], _, _, true, Events).
 test(stopped_twice, error(existence_error(log_server, _))) :-
-    with_log([], keep, _),
-    nb_getval(test_log, Address),
+    with_log([], Address, _, true, _),
     log_server_stop(Address).
-
-nothing(_, _).
-
-again(_, _) :-
-    with_log([], nothing, _).
-
-keep(Address, _) :-
-    nb_setval(test_log, Address).
 
 test(unknown_option, error(domain_error(log_server_option, colour(red)))) :-
     log_server_start([file('/tmp/x'), colour(red)], _).
@@ -236,7 +193,7 @@ test(no_file, error(existence_error(option, file))) :-
 test(no_such_directory, error(_)) :-
     log_server_start([file('/no/such/directory/events')], _).
 test(nothing_is_left_behind) :-
-    no_leaks(( with_log([], hundred, _),
+    no_leaks(( with_log([], Address, _, hundred(Address), _),
                garbage_collect,           % the queues of closed sessions
                garbage_collect_clauses,
                garbage_collect_atoms )).
@@ -247,9 +204,9 @@ test(events_without_a_log_server_are_reported_once,
 test(a_full_disk_is_reported_once,
      [ condition(exists_file_device('/dev/full')), true(Count == 1) ]) :-
     quietly(( log_server_start([file('/dev/full')], Address),
-              hundred(Address, _),
+              hundred(Address),
               wait_until(printed(_), 5),
-              hundred(Address, _),
+              hundred(Address),
               log_server_stop(Address) ), Messages),
     aggregate_all(count, member(log_not_written('/dev/full', _), Messages),
                   Count),
@@ -258,7 +215,7 @@ test(reason_is_printed_without_internals,
      [ condition(exists_file_device('/dev/full')),
        true(Text == "No space left on device") ]) :-
     quietly(( log_server_start([file('/dev/full')], Address),
-              hundred(Address, _),
+              hundred(Address),
               log_server_stop(Address) ), Messages),
     memberchk(log_not_written(File, Error), Messages),
     phrase(prolog:message(typhon(log_not_written(File, Error))),
@@ -282,7 +239,7 @@ full_for_a_while(Kept, Bad, Dir) :-
     quietly(log_events(Real, Events), Bad),
     findall(W, ( member(event(_, _, _, W), Events), W \== meanwhile ), Kept).
 fill_and_free(Address, Link, Real) :-
-    hundred(Address, _),
+    hundred(Address),
     wait_until(printed(log_not_written(_, _)), 5),
     forall(typhon_log_file:about_to_read(Link), true), % all writes were tried
     delete_file(Link),
@@ -294,33 +251,32 @@ fill_and_free(Address, Link, Real) :-
 test(unwritable_path,
      error(permission_error(open, source_sink, '/proc/typhon_log'))) :-
     no_leaks(log_server_start([file('/proc/typhon_log')], _)).
-test(a_read_only_directory, [ condition(powerless('/usr/bin/true', [], [])),
-                              true(Out == "open"-"none") ]) :-
-    with_tmp_dir(read_only(Out)).
 
 %   Root may write everywhere, by its capabilities: this process has none.
 
-read_only(Opened-Left, Dir) :-
-    directory_file_path(Dir, events, File),
-    chmod(Dir, -w),
-    project_file(prolog, Library),
-    current_prolog_flag(executable, Swipl),
-    format(atom(Goal),
-           'assertz(file_search_path(library, ~q)),\c
-            use_module(library(typhon)),\c
-            catch(log_server_start([file(~q)], _),\c
-                  error(permission_error(What, _, _), _), write(What)),\c
-            ( exists_file(~q) -> Left = some ; Left = none ),\c
-            write(Left), halt', [Library, File, File]),
-    setup_call_cleanup(
-        powerless(Swipl, ['-q', '-f', none, '-g', Goal],
-                  [ stdout(pipe(Stream)),
-                    environment(['TYPHON_COOKIE'=abcdefabcdefabcdef]) ]),
-        read_string(Stream, _, Text),
-        close(Stream)),
-    chmod(Dir, +w),
-    string_concat(Opened, Left, Text),
-    string_length(Opened, 4).
+test(a_read_only_directory, [ condition(powerless('/usr/bin/true', [], [])),
+                              true(Opened-Left == "open"-"none") ]) :-
+    with_tmp_dir(Dir,
+        ( directory_file_path(Dir, events, File),
+          chmod(Dir, -w),
+          project_file(prolog, Library),
+          current_prolog_flag(executable, Swipl),
+          format(atom(Goal),
+                 'assertz(file_search_path(library, ~q)),\c
+                  use_module(library(typhon)),\c
+                  catch(log_server_start([file(~q)], _),\c
+                        error(permission_error(What, _, _), _), write(What)),\c
+                  ( exists_file(~q) -> Left = some ; Left = none ),\c
+                  write(Left), halt', [Library, File, File]),
+          setup_call_cleanup(
+              powerless(Swipl, ['-q', '-f', none, '-g', Goal],
+                        [ stdout(pipe(Stream)),
+                          environment(['TYPHON_COOKIE'=abcdefabcdefabcdef]) ]),
+              read_string(Stream, _, Text),
+              close(Stream)),
+          chmod(Dir, +w),
+          string_concat(Opened, Left, Text),
+          string_length(Opened, 4) )).
 
 %   powerless(+Program, +Args, +Options): fails if capabilities cannot be
 %   dropped.
@@ -383,15 +339,13 @@ append_to(Text, Ns, Messages, Dir) :-
             member(log_line_skipped(_:L, _), Printed), Messages).
 
 test(new_file_by_default, Ns == [3]) :-
-    with_tmp_dir(begin_anew(Ns)).
-
-begin_anew(Ns, Dir) :-
-    directory_file_path(Dir, 'events.pl', File),
-    write_text(File, "event(1.0,h,a,1).\n"),
-    log_server_start([file(File)], Address),
-    arrives(Address, h, a, 3),
-    log_server_stop(Address),
-    log_events(File, Events),
-    findall(N, member(event(_, _, _, N), Events), Ns).
+    with_tmp_dir(Dir,
+        ( directory_file_path(Dir, 'events.pl', File),
+          write_text(File, "event(1.0,h,a,1).\n"),
+          log_server_start([file(File)], Address),
+          arrives(Address, h, a, 3),
+          log_server_stop(Address),
+          log_events(File, Events),
+          findall(N, member(event(_, _, _, N), Events), Ns) )).
 
 :- end_tests(log_files).

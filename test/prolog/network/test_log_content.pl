@@ -1,6 +1,7 @@
 :- module(test_log_content, []).
 :- use_module(library(plunit)).
 :- use_module('../../lib/common').
+:- use_module('../../lib/networks').
 :- use_module('../../lib/fixtures').
 :- use_module(library(filesex)).
 :- use_module(library(lists)).
@@ -20,11 +21,8 @@ with_pair(Options, Kinds, Goal, Events) :-
 
 pair_in(Options, Kinds, Goal, Events, Dir) :-
     directory_file_path(Dir, 'events.pl', File),
-    no_leaks(setup_call_cleanup(
-                 network_start(ring(2), Network, [log(File, Kinds)|Options]),
-                 ( network_property(Network, hosts(Hosts)),
-                   call(Goal, Hosts) ),
-                 network_stop(Network))),
+    with_network(ring(2), [log(File, Kinds)|Options], _, Hosts,
+        call(Goal, Hosts)),
     log_events(File, Events).
 
 %   An agent that answers, and one that asks.
@@ -42,9 +40,6 @@ contents(Events, Kind, Contents) :-
             ( member(event(_, _, _, What), Events),
               What =.. [Kind, _, Content] ),
             Contents).
-
-long(Message) :-
-    numlist(1, 5000, Message).
 
 noted(Queue, Event) :-
     thread_send_message(Queue, Event).
@@ -67,7 +62,7 @@ test(log_contains_the_content_of_messages,
     contents(Events, received, Received),
     assertion(permutation(Received, [say(_, _), hello(_, _, "you"), got(_)])).
 test(content_is_bounded) :-
-    long(Message),
+    numlist(1, 5000, Message),
     with_pair([clock(virtual)], [messages(content)], talk(Message), Events),
     contents(Events, sent, [Content|_]),
     assertion(string_length(Content, 203)),

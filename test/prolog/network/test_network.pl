@@ -1,5 +1,6 @@
 :- module(test_network, []).
 :- use_module('../../lib/common').
+:- use_module('../../lib/networks').
 :- use_module(library(plunit)).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
@@ -14,7 +15,6 @@
 :- use_module('../../lib/virtual_networks', [network_shape/5]).
 
 :- meta_predicate
-    with_network(+, +, 1),
     quiet(0),
     seconds(0, -),
     nothing_left(0).
@@ -22,10 +22,8 @@
 %   with_network(+Topology, +Options, :Goal): call(Goal, Network).
 
 with_network(Topology, Options, Goal) :-
-    setup_call_cleanup(
-        network_start(Topology, Network, Options),
-        once(call(Goal, Network)),
-        network_stop(Network)).
+    with_network(Topology, Options, Network,
+        once(call(Goal, Network))).
 
 %   Messages that a test provokes are not printed.
 
@@ -105,24 +103,22 @@ hosts_there(Network) :-
 
 test(in_one_process) :-
     network_shape(grid(6, 10), [], _, _, Edges),
-    nothing_left(with_network(grid(6, 10), [], own_grid(Edges))).
-
-own_grid(Edges, Network) :-
-    current_prolog_flag(pid, Me),
-    pids(Network, [Me]),
-    hosts(Network, Hosts),
-    length(Hosts, 60),
-    maplist([Host, Name]>>atomic_list_concat([Name, _], @, Host),
-            Hosts, Names),
-    findall(Name, ( between(1, 60, I), atom_concat(n, I, Name) ), Names),
-    edges_are(Edges, Network),
-    nth1(1, Hosts, First),
-    nth1(2, Hosts, Second),
-    nth1(11, Hosts, Below),
-    host_property(n1, neighbours(Neighbours)),
-    msort(Neighbours, Sorted),
-    msort([Second, Below], Sorted),
-    host_property(n1, address(First)).
+    nothing_left(with_network(grid(6, 10), [], Network,
+        ( current_prolog_flag(pid, Me),
+          pids(Network, [Me]),
+          hosts(Network, Hosts),
+          length(Hosts, 60),
+          maplist([Host, Name]>>atomic_list_concat([Name, _], @, Host),
+                  Hosts, Names),
+          findall(Name, ( between(1, 60, I), atom_concat(n, I, Name) ), Names),
+          edges_are(Edges, Network),
+          nth1(1, Hosts, First),
+          nth1(2, Hosts, Second),
+          nth1(11, Hosts, Below),
+          host_property(n1, neighbours(Neighbours)),
+          msort(Neighbours, Sorted),
+          msort([Second, Below], Sorted),
+          host_property(n1, address(First)) ))).
 
 %   edges_are(+Edges, +Network): Edges are pairs of positions among the hosts.
 
@@ -135,29 +131,27 @@ edges_are(Edges, Network) :-
 
 test(in_four_processes) :-
     network_shape(grid(6, 10), [], _, _, Edges),
-    nothing_left(with_network(grid(6, 10), [processes(4)], four(Edges))).
-
-four(Edges, Network) :-
-    current_prolog_flag(pid, Me),
-    pids(Network, Pids),
-    length(Pids, 4),
-    sort(Pids, Distinct),
-    length(Distinct, 4),
-    \+ memberchk(Me, Pids),
-    maplist(alive, Pids),
-    edges_are(Edges, Network),
-    hosts(Network, Hosts),
-    maplist([Host, Endpoint]>>atomic_list_concat([_, Endpoint], @, Host),
-            Hosts, Endpoints),
-    blocks(Endpoints, Blocks),
-    Blocks == [15, 15, 15, 15],
-    nth1(15, Hosts, Last),
-    nth1(16, Hosts, Next),
-    call_cleanup(host_property(Last, neighbours(Ns)), Det = true),
-    assertion(Det == true),
-    memberchk(Next, Ns),
-    host_property(Next, neighbours(Back)),
-    memberchk(Last, Back).
+    nothing_left(with_network(grid(6, 10), [processes(4)], Network,
+        ( current_prolog_flag(pid, Me),
+          pids(Network, Pids),
+          length(Pids, 4),
+          sort(Pids, Distinct),
+          length(Distinct, 4),
+          \+ memberchk(Me, Pids),
+          maplist(alive, Pids),
+          edges_are(Edges, Network),
+          hosts(Network, Hosts),
+          maplist([Host, Endpoint]>>atomic_list_concat([_, Endpoint], @, Host),
+                  Hosts, Endpoints),
+          blocks(Endpoints, Blocks),
+          Blocks == [15, 15, 15, 15],
+          nth1(15, Hosts, Last),
+          nth1(16, Hosts, Next),
+          call_cleanup(host_property(Last, neighbours(Ns)), Det = true),
+          assertion(Det == true),
+          memberchk(Next, Ns),
+          host_property(Next, neighbours(Back)),
+          memberchk(Last, Back) ))).
 
 blocks([], []).
 blocks([E|Es], [N|Ns]) :-
@@ -174,17 +168,19 @@ test(every_topology,
      forall(member(T, [star_bus(3,4), ring(7), tree(7), grid(2,3), mesh(6),
                        random(8, 0.4), edges([a-b, b-3])]))) :-
     network_shape(T, [seed(5)], _, _, Edges),
-    with_network(T, [processes(2), seed(5)], edges_are(Edges)).
+    with_network(T, [processes(2), seed(5)], Network,
+                 edges_are(Edges, Network)).
 test(no_more_processes_than_hosts, Count == 2) :-
     network_start(ring(2), Network, [processes(5)]),
     pids(Network, Pids),
     length(Pids, Count),
     network_stop(Network).
 test(starts_fast, true(Seconds < 30)) :-
-    seconds(with_network(grid(6, 10), [processes(4)], hosts_there), Seconds).
+    seconds(with_network(grid(6, 10), [processes(4)], Network,
+                         hosts_there(Network)), Seconds).
 
 test(agents_travel_over_the_whole_network, Count == 12) :-
-    with_network(ring(12), [processes(3)], round_trip(Count)).
+    with_network(ring(12), [processes(3)], Network, round_trip(Count, Network)).
 
 round_trip(Count, Network) :-
     hosts(Network, [First|_]),
@@ -201,18 +197,16 @@ round_trip(Count, Network) :-
     agent_join(Agent, done, 20),
     remote(First, take(round(Count))).
 
-test(network_runs_until_its_agents_end, forall(member(P, [1, 2]))) :-
-    with_network(ring(2), [processes(P)], census).
-
 %   An agent and its clone are created on A, and stay on B until they get `go`;
 %   a visitor from a host outside the network is with them.
 
-census(Network) :-
-    setup_call_cleanup(
-        host_start(elsewhere),
-        visited(Network),
-        host_stop(elsewhere)),
-    network_property(Network, agents([])).
+test(network_runs_until_its_agents_end, forall(member(P, [1, 2]))) :-
+    with_network(ring(2), [processes(P)], Network,
+        ( setup_call_cleanup(
+              host_start(elsewhere),
+              visited(Network),
+              host_stop(elsewhere)),
+          network_property(Network, agents([])) )).
 
 visited(Network) :-
     hosts(Network, [A, B]),
@@ -245,7 +239,8 @@ gone(Agent) :-
 test(two_networks_at_once, true(Disjoint)) :-
     setup_call_cleanup(
         network_start(ring(3), A, [processes(2)]),
-        with_network(ring(3), [processes(2)], other(A, Disjoint)),
+        with_network(ring(3), [processes(2)], Network,
+                     other(A, Disjoint, Network)),
         network_stop(A)).
 
 other(A, Disjoint, B) :-
@@ -258,7 +253,8 @@ other(A, Disjoint, B) :-
     ).
 
 test(host_options) :-
-    with_network(ring(2), [processes(2), hosts([capacity(3)])], capacity(3)).
+    with_network(ring(2), [processes(2), hosts([capacity(3)])], Network,
+                 capacity(3, Network)).
 
 capacity(N, Network) :-
     hosts(Network, Hosts),
@@ -275,7 +271,7 @@ machines(Dir) :-
                               [ machines(['user@127.0.0.1',
                                           machine(other,
                                                   [bind('127.0.0.1')])]) ],
-                              spread(2))).
+                              Network, spread(2, Network))).
 
 spread(Count, Network) :-
     pids(Network, Pids),
@@ -297,7 +293,8 @@ test(one_clock_for_all_hosts) :-
 clocks(Dir) :-
     directory_file_path(Dir, log, File),
     get_time(T0),
-    with_network(ring(4), [processes(2), clock(20), log(File)], tell_time),
+    with_network(ring(4), [processes(2), clock(20), log(File)], Network,
+                 tell_time(Network)),
     get_time(T1),
     log_events(File, Events),
     findall(Time-At, ( member(event(Time, _, _, At), Events),
@@ -329,43 +326,39 @@ tell_time(Network) :-
 
 test(hop_time, true(( Least >= 1, Least < 4 ))) :-
     with_network(ring(2),
-                 [processes(2), clock(10), hop_time(uniform(1, 2))],
-                 least_hop(Least)).
-
-least_hop(Least, Network) :-
-    hosts(Network, [A, B]),
-    agent_create(clauses([ (:- agent(hopper, [])),
-                           ( main :- home(A), neighbours([B]),
-                                     hops(5, B, A, Times),
-                                     min_list(Times, Least),
-                                     leave(least(Least)) ),
-                           hops(0, _, _, []),
-                           ( hops(N, B, A, [T1,T2|Ts]) :-
-                                 N > 0, hop(B, T1), hop(A, T2),
-                                 N1 is N - 1, hops(N1, B, A, Ts) ),
-                           ( hop(To, T) :- now(T0), move(To), now(T1),
-                                           T is T1 - T0 ) ]),
-                 Agent, [host(A)]),
-    agent_join(Agent, done, 20),
-    remote(A, take(least(Least))),
-    nonvar(B).
+                 [processes(2), clock(10), hop_time(uniform(1, 2))], Network,
+        ( hosts(Network, [A, B]),
+          agent_create(clauses([ (:- agent(hopper, [])),
+                                 ( main :- home(A), neighbours([B]),
+                                           hops(5, B, A, Times),
+                                           min_list(Times, Least),
+                                           leave(least(Least)) ),
+                                 hops(0, _, _, []),
+                                 ( hops(N, B, A, [T1,T2|Ts]) :-
+                                       N > 0, hop(B, T1), hop(A, T2),
+                                       N1 is N - 1, hops(N1, B, A, Ts) ),
+                                 ( hop(To, T) :- now(T0), move(To), now(T1),
+                                                 T is T1 - T0 ) ]),
+                       Agent, [host(A)]),
+          agent_join(Agent, done, 20),
+          remote(A, take(least(Least))),
+          nonvar(B) )).
 
 :- end_tests(network_time).
 
 :- begin_tests(network_log).
 
 test(no_event_is_lost, Counts == [2000, 2000]) :-
-    with_tmp_dir(flood(Counts)).
-
-flood(Counts, Dir) :-
-    directory_file_path(Dir, log, File),
-    with_network(ring(4), [processes(2), log(File)], flood_all(File)),
-    log_events(File, Events),
-    aggregate_all(count, member(event(_, _, _, n(_)), Events), Count),
-    findall(A-N, member(event(_, _, A, n(N)), Events), Pairs),
-    sort(Pairs, Distinct),
-    length(Distinct, Count2),
-    Counts = [Count, Count2].
+    with_tmp_dir(Dir,
+        ( directory_file_path(Dir, log, File),
+          with_network(ring(4), [processes(2), log(File)], Network,
+                       flood_all(File, Network)),
+          log_events(File, Events),
+          aggregate_all(count, member(event(_, _, _, n(_)), Events), Count),
+          findall(A-N, member(event(_, _, A, n(N)), Events), Pairs),
+          sort(Pairs, Distinct),
+          length(Distinct, Count2),
+          Counts = [Count, Count2] )).
 
 flood_all(File, Network) :-
     network_property(Network, log(File)),
@@ -380,20 +373,17 @@ flood_all(File, Network) :-
     forall(member(Agent, Agents), agent_join(Agent, done, 20)).
 
 test(no_event_is_lost_within_a_process, Count == 500) :-
-    with_tmp_dir(flood_here(Count)).
-
-flood_here(Count, Dir) :-
-    directory_file_path(Dir, log, File),
-    with_network(ring(1), [log(File)], flood_all(File)),
-    log_events(File, Events),
-    aggregate_all(count, member(event(_, _, _, n(_)), Events), Count).
-
+    with_tmp_dir(Dir,
+        ( directory_file_path(Dir, log, File),
+          with_network(ring(1), [log(File)], Network, flood_all(File, Network)),
+          log_events(File, Events),
+          aggregate_all(count, member(event(_, _, _, n(_)), Events), Count) )).
 test(ends_of_resident_agents_are_logged, Ends == 4) :-
     with_tmp_dir(residents(Ends)).
 
 residents(Ends, Dir) :-
     directory_file_path(Dir, log, File),
-    with_network(ring(4), [processes(2), log(File)], settle),
+    with_network(ring(4), [processes(2), log(File)], Network, settle(Network)),
     log_events(File, Events),
     aggregate_all(count, member(event(_, _, _, ended(_)), Events), Ends).
 
@@ -422,11 +412,12 @@ test(stopped_twice, error(existence_error(network, _))) :-
 test(other_hosts_remain, true) :-
     setup_call_cleanup(
         host_start(bystander),
-        ( with_network(ring(2), [], hosts_there),
+        ( with_network(ring(2), [], Network, hosts_there(Network)),
           host_property(bystander, state(running)) ),
         host_stop(bystander)).
 test(dead_process, Count == 3) :-
-    quiet(nothing_left(with_network(ring(8), [processes(4)], bury(Count)))).
+    quiet(nothing_left(with_network(ring(8), [processes(4)], Network,
+                                    bury(Count, Network)))).
 
 bury(Count, Network) :-
     pids(Network, [Pid|_]),
@@ -437,25 +428,22 @@ bury(Count, Network) :-
 test(warning_names_hosts_and_agents_of_a_dead_process) :-
     setup_call_cleanup(
         host_start(bystander),
-        quiet(with_network(ring(4), [processes(2)], bury_with_agents)),
+        quiet(with_network(ring(4), [processes(2)], Network,
+            ( network_property(Network, hosts([First, _, Third|_])),
+              Program = clauses([(:- agent(still, [])), on_message(_, _)]),
+              agent_create(Program, There, [host(bystander)]),
+              agent_create(Program, Other, [host(bystander)]),
+              agent_create(Program, _, [host(First)]),
+              agent_move(There, First, [wait(10)]),
+              agent_move(Other, Third, [wait(10)]),
+              wait_until(agent_property(There, host(First)), 5),
+              pids(Network, [Pid|_]),
+              process_kill(Pid, kill),
+              wait_until(printed(node_down(Network, Pid, killed(9), _, _)), 5),
+              printed(node_down(Network, Pid, _, Hosts, Agents)),
+              assertion(Hosts == [n1, n2]),
+              assertion(Agents == [There]) ))),
         host_stop(bystander)).
-
-bury_with_agents(Network) :-
-    network_property(Network, hosts([First, _, Third|_])),
-    Program = clauses([(:- agent(still, [])), on_message(_, _)]),
-    agent_create(Program, There, [host(bystander)]),
-    agent_create(Program, Other, [host(bystander)]),
-    agent_create(Program, _, [host(First)]),
-    agent_move(There, First, [wait(10)]),
-    agent_move(Other, Third, [wait(10)]),
-    wait_until(agent_property(There, host(First)), 5),
-    pids(Network, [Pid|_]),
-    process_kill(Pid, kill),
-    wait_until(printed(node_down(Network, Pid, killed(9), _, _)), 5),
-    printed(node_down(Network, Pid, _, Hosts, Agents)),
-    assertion(Hosts == [n1, n2]),
-    assertion(Agents == [There]).
-
 test(warning_names_ten_hosts_and_counts_the_others) :-
     numlist(1, 12, Hosts),
     Message = typhon(node_down(network0, 7, killed(9), Hosts, [bob])),
@@ -475,7 +463,8 @@ test(hanging_process,
        true(Seconds < 20) ]) :-
     quiet(nothing_left(seconds(with_settings(
                 [typhon_children:stop_seconds=1],
-                with_network(ring(8), [processes(4)|Dynamic], freeze)),
+                with_network(ring(8), [processes(4)|Dynamic], Network,
+                             freeze(Network))),
                                Seconds))),
     once(printed(node_killed(_, _))).
 
@@ -499,7 +488,7 @@ go_round(Network) :-
 %   The end of the output and the signal race.
 
 test(every_killed_process_is_noticed, forall(member(_, [1, 2, 3, 4]))) :-
-    quiet(with_network(ring(5), [processes(5)], all_killed)).
+    quiet(with_network(ring(5), [processes(5)], Network, all_killed(Network))).
 
 all_killed(Network) :-
     pids(Network, Pids),
@@ -508,7 +497,8 @@ all_killed(Network) :-
            wait_until(printed(node_down(_, Pid, killed(9), _, _)), 20)).
 
 test(busy_agent_does_not_delay_the_stop, true(Seconds < 25)) :-
-    nothing_left(seconds(with_network(ring(4), [processes(2)], busy),
+    nothing_left(seconds(with_network(ring(4), [processes(2)], Network,
+                                      busy(Network)),
                          Seconds)).
 
 busy(Network) :-
@@ -519,20 +509,12 @@ busy(Network) :-
                         _, [host(Host)])).
 
 test(children_end_on_sigterm, true) :-
-    quiet(with_network(ring(2), [processes(2)], terminate)).
-
-terminate(Network) :-
-    pids(Network, Pids),
-    forall(member(Pid, Pids), process_kill(Pid, term)),
-    wait_until(ended(Pids), 10).
-
+    quiet(with_network(ring(2), [processes(2)], Network,
+        ( pids(Network, Pids),
+          forall(member(Pid, Pids), process_kill(Pid, term)),
+          wait_until(ended(Pids), 10) ))).
 test(children_end_when_their_parent_is_killed,
      forall(member(Signal, [kill, term]))) :-
-    orphans(Signal, Pids),
-    length(Pids, 3),
-    wait_until(ended(Pids), 10).
-
-orphans(Signal, Pids) :-
     project_file(prolog, Library),
     format(atom(Path), 'library=~w', [Library]),
     Goal = 'use_module(library(typhon/network)),\c
@@ -543,8 +525,9 @@ orphans(Signal, Pids) :-
                ( read_line_to_string(Out, Line),
                  term_string(Pids, Line),
                  maplist(alive, Pids),
-                 process_kill(Pid, Signal) )).
-
+                 process_kill(Pid, Signal) )),
+    length(Pids, 3),
+    wait_until(ended(Pids), 10).
 test(failed_host_start_stops_the_network,
      error(domain_error(host_option, colour(red)))) :-
     nothing_left(( catch(network_start(ring(4), _, [ processes(2),
@@ -609,15 +592,12 @@ test(unknown_network, error(existence_error(network, atlantis))) :-
 test(cookie_is_in_no_argument_list, true) :-
     typhon_handshake:cookie(Cookie0),
     format(string(Cookie), "~w", [Cookie0]),
-    with_network(ring(2), [processes(2)], hidden(Cookie)).
-
-hidden(Cookie, Network) :-
-    pids(Network, Pids),
-    forall(( member(Pid, Pids), member(Which, [cmdline, environ]) ),
-           ( format(atom(File), '/proc/~w/~w', [Pid, Which]),
-             read_file_to_string(File, Text, [encoding(octet)]),
-             \+ sub_string(Text, _, _, _, Cookie) )).
-
+    with_network(ring(2), [processes(2)], Network,
+        ( pids(Network, Pids),
+          forall(( member(Pid, Pids), member(Which, [cmdline, environ]) ),
+                 ( format(atom(File), '/proc/~w/~w', [Pid, Which]),
+                   read_file_to_string(File, Text, [encoding(octet)]),
+                   \+ sub_string(Text, _, _, _, Cookie) )) )).
 test(output_of_children_is_printed) :-
     project_file(prolog, Library),
     format(atom(Path), 'library=~w', [Library]),
@@ -637,7 +617,8 @@ test(output_of_children_is_printed) :-
 test(links_come_and_go, true) :-
     network_shape(grid(3, 3), [], _, _, Edges),
     with_network(grid(3, 3), [ processes(2), clock(50), seed(1),
-                               dynamic(dynamic_1) ], changing(Edges)).
+                               dynamic(dynamic_1) ], Network,
+                 changing(Edges, Network)).
 
 changing(Edges, Network) :-
     network_property(Network, edges(Before)),
@@ -650,20 +631,18 @@ changing(Edges, Network) :-
 test(isolated_host_keeps_its_agents_until_it_is_linked) :-
     with_network(mesh(4), [ processes(2), clock(50),
                             dynamic(links(uniform(1, 1), each(1), 0)) ],
-                 isolation).
-
-isolation(Network) :-
-    hosts(Network, [A, B|_]),
-    wait_until(network_property(Network, edges([])), 10),
-    agent_create(clauses([ (:- agent(prisoner, [])),
-                           ( main :- next_host(random, H), !, move(H),
-                                     leave(escaped) ),
-                           ( main :- sleep(1), main ) ]),
-                 Agent, [host(A)]),
-    \+ agent_join_soon(Agent),
-    agent_property(Agent, host(A)),
-    free(Agent, A, B),
-    remote(B, take(escaped)).
+                 Network,
+        ( hosts(Network, [A, B|_]),
+          wait_until(network_property(Network, edges([])), 10),
+          agent_create(clauses([ (:- agent(prisoner, [])),
+                                 ( main :- next_host(random, H), !, move(H),
+                                           leave(escaped) ),
+                                 ( main :- sleep(1), main ) ]),
+                       Agent, [host(A)]),
+          \+ agent_join_soon(Agent),
+          agent_property(Agent, host(A)),
+          free(Agent, A, B),
+          remote(B, take(escaped)) )).
 
 %   The link may be dropped again before the agent sees it.
 
@@ -688,7 +667,7 @@ first_to_go(Link, Dir) :-
     directory_file_path(Dir, 'log.pl', File),
     with_network(ring(6), [ seed(3), clock(100), log(File, [links]),
                             dynamic(links(uniform(10, 500), 1, 0)) ],
-                 first_dropped(File, Link)).
+                 Network, first_dropped(File, Link, Network)).
 
 first_dropped(File, I-J, Network) :-
     wait_until(( log_events(File, Events),
@@ -700,7 +679,7 @@ first_dropped(File, I-J, Network) :-
 test(dead_process_does_not_stop_the_changes) :-
     quiet(with_network(mesh(8), [ processes(4), clock(100),
                                   dynamic(links(uniform(1, 2), 0.5, 0.5)) ],
-                       limping)).
+                       Network, limping(Network))).
 
 limping(Network) :-
     pids(Network, [Pid|_]),

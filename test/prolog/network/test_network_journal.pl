@@ -1,5 +1,6 @@
 :- module(test_network_journal, []).
 :- use_module('../../lib/common').
+:- use_module('../../lib/networks').
 :- use_module(library(plunit)).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/3]).
@@ -16,16 +17,13 @@
 */
 
 :- meta_predicate
-    network(+, +, +, 1),
+    network(+, +, +, -, 0),
     quiet(0).
 
-%   network(+Dir, +Topology, +Options, :Goal): with a journal in Dir.
+%   network(+Dir, +Topology, +Options, -Network, :Goal): with a journal in Dir.
 
-network(Dir, Topology, Options, Goal) :-
-    setup_call_cleanup(
-        network_start(Topology, Network, [journal(Dir)|Options]),
-        once(call(Goal, Network)),
-        network_stop(Network)).
+network(Dir, Topology, Options, Network, Goal) :-
+    with_network(Topology, [journal(Dir)|Options], Network, Goal).
 
 %   Messages that a test provokes are not printed.
 
@@ -124,7 +122,8 @@ test(agents_survive_killed_processes) :-
     quiet(no_leaks(with_tmp_dir(killed))).
 
 killed(Dir) :-
-    network(Dir, ring(4), [processes(2), restart(true)], killed(100)).
+    network(Dir, ring(4), [processes(2), restart(true)], Network,
+            killed(100, Network)).
 
 killed(Hops, Network) :-
     hosts(Network, Hosts),
@@ -146,8 +145,9 @@ far(Dir) :-
     Machines = machines(['127.0.0.1', '127.0.0.2']),
     with_settings([typhon_children:ssh=Program],
                   ( network(Journal, ring(4), [Machines, restart(true)],
-                            begun_far(Hosts, Agents)),
-                    network(Journal, ring(4), [], all_arrived(Hosts, 60, Agents))
+                            Network, begun_far(Hosts, Agents, Network)),
+                    network(Journal, ring(4), [], Network,
+                            all_arrived(Hosts, 60, Agents, Network))
                   )).
 
 begun_far(Hosts, Agents, Network) :-
@@ -165,8 +165,10 @@ test(stopped_network_resumes) :-
 stopped(Dir) :-
     Options = [processes(2), seed(7), log(Log, [hops])],
     directory_file_path(Dir, 'log.pl', Log),
-    network(Dir, ring(4), Options, begun(Hosts, Agents, Keeper, Edges, Time)),
-    network(Dir, ring(4), [], goes_on(Hosts, Agents, Keeper, Edges, Time)),
+    network(Dir, ring(4), Options, Network,
+            begun(Hosts, Agents, Keeper, Edges, Time, Network)),
+    network(Dir, ring(4), [], Network,
+            goes_on(Hosts, Agents, Keeper, Edges, Time, Network)),
     log_events(Log, Events),
     forall(member(Agent, Agents),
            ( findall(x, member(event(_, _, Agent, ended(done)), Events), [_]),
@@ -203,12 +205,15 @@ goes_on(Hosts, Agents, Keeper, Edges, Time, Network) :-
     wait_until(agent_property(Keeper, facts([got(one), got(two)])), 5).
 
 test(processes_stop_after_all_agents_rest) :-
-    no_leaks(with_tmp_dir(at_rest)).
-
-at_rest(Dir) :-
-    network(Dir, mesh(3), [processes(3)], sets_out(Hosts, Agents)),
-    network(Dir, mesh(3), [], pauses(Hosts)),
-    network(Dir, mesh(3), [], arrives(Hosts, Agents)).
+    no_leaks(with_tmp_dir(Dir,
+        ( network(Dir, mesh(3), [processes(3)], Network1,
+                  sets_out(Hosts, Agents, Network1)),
+          network(Dir, mesh(3), [], Network1, pauses(Hosts, Network1)),
+          network(Dir, mesh(3), [], Network,
+              ( hosts(Network, Hosts),
+                forall(member(Agent, Agents), agent_join(Agent, done, 30)),
+                all_visits(All),
+                visits(Hosts, All) )) ))).
 
 sets_out(Hosts, Agents, Network) :-
     hosts(Network, Hosts),
@@ -236,12 +241,6 @@ pauses(Hosts, Network) :-
     wait_until(( visits(Hosts, Now), Now >= min(All, Before+15) ), 20),
     ends_last(Network).
 
-arrives(Hosts, Agents, Network) :-
-    hosts(Network, Hosts),
-    forall(member(Agent, Agents), agent_join(Agent, done, 30)),
-    all_visits(All),
-    visits(Hosts, All).
-
 all_visits(All) :-
     aggregate_all(sum(3*Hops), way(Hops, _), All).
 
@@ -261,29 +260,26 @@ ends_last(Network) :-
 
 test(network_with_a_hanging_and_a_dead_process_stops_soon,
      true(Seconds < 12)) :-
-    quiet(no_leaks(with_tmp_dir(dead_and_hanging(Seconds)))).
-
-dead_and_hanging(Seconds, Dir) :-
-    network_start(mesh(4), Network, [processes(4), journal(Dir)]),
-    hosts(Network, Hosts),
-    patient_walkers(Hosts, 30, Agents),
-    wait_until(( visits(Hosts, Now), Now > 20 ), 20),
-    pids(Network, [_, Dead, Hanging|_]),
-    process_kill(Dead, kill),
-    process_kill(Hanging, stop),
-    get_time(T0),
-    network_stop(Network),
-    get_time(T1),
-    Seconds is T1-T0,
-    network(Dir, mesh(4), [], all_there(Hosts, 30, Agents)).
-
+    quiet(no_leaks(with_tmp_dir(Dir,
+        ( network_start(mesh(4), Network, [processes(4), journal(Dir)]),
+          hosts(Network, Hosts),
+          patient_walkers(Hosts, 30, Agents),
+          wait_until(( visits(Hosts, Now), Now > 20 ), 20),
+          pids(Network, [_, Dead, Hanging|_]),
+          process_kill(Dead, kill),
+          process_kill(Hanging, stop),
+          get_time(T0),
+          network_stop(Network),
+          get_time(T1),
+          Seconds is T1-T0,
+          network(Dir, mesh(4), [], Network1,
+                  all_there(Hosts, 30, Agents, Network1)) )))).
 test(killed_network_of_one_process_resumes,
      [forall(member(Processes, [1, 2]))]) :-
-    with_tmp_dir(killed_as_a_whole(Processes)).
-
-killed_as_a_whole(Processes, Dir) :-
-    first_life(Dir, Processes, Hosts, Agents),
-    no_leaks(network(Dir, ring(3), [], after_all(Hosts, Agents))).
+    with_tmp_dir(Dir,
+        ( first_life(Dir, Processes, Hosts, Agents),
+          no_leaks(network(Dir, ring(3), [], Network,
+              all_there(Hosts, 60, Agents, Network))) )).
 
 first_life(Dir, Processes, Hosts, Agents) :-
     project_file(prolog, Library),
@@ -303,9 +299,6 @@ first_life(Dir, Processes, Hosts, Agents) :-
                  term_string(Hosts-Agents, Line),
                  process_kill(Pid, kill) )).
 
-after_all(Hosts, Agents, Network) :-
-    all_there(Hosts, 60, Agents, Network).
-
 all_there(Hosts, Hops, Agents, Network) :-
     hosts(Network, Hosts),
     all_arrived(Hosts, Hops, Agents).
@@ -316,8 +309,8 @@ test(stopped_network_in_this_process_ends_no_agent,
 
 here(Ends, Dir) :-
     directory_file_path(Dir, 'log.pl', Log),
-    network(Dir, ring(2), [log(Log)], one_walks(Agent)),
-    network(Dir, ring(2), [], goes_on_alone(Agent)),
+    network(Dir, ring(2), [log(Log)], Network, one_walks(Agent, Network)),
+    network(Dir, ring(2), [], Network, goes_on_alone(Agent, Network)),
     log_events(Log, Events),
     findall(End, member(event(_, _, Agent, ended(End)), Events), Ends).
 
@@ -340,21 +333,14 @@ goes_on_alone(Agent, Network) :-
     all_arrived(Hosts, 100, [Agent]).
 
 test(changing_links_resume, Edges == Expected) :-
-    with_tmp_dir(come_and_go(Edges, Expected)).
-
-come_and_go(Edges, Expected, Dir) :-
-    Options = [ processes(2), seed(3), clock(5),
-                dynamic(links(uniform(6, 12), 0.5, 0.9)) ],
-    network(Dir, ring(6), Options, some_changes),
-    typhon_plan:network_plan(ring(6), Options, Plan),
-    network(Dir, ring(6), [], now_there(Plan, Edges, Expected)).
-
-some_changes(Network) :-
-    hosts(Network, [Host|_]),
-    wait_until(( remote(Host, now(Time)), Time > 12 ), 10).
-
-now_there(Plan, Edges, Expected, Network) :-
-    wait_until(as_it_would_be(Network, Plan, Edges, Expected), 20).
+    with_tmp_dir(Dir,
+        ( Options = [ processes(2), seed(3), clock(5),
+                      dynamic(links(uniform(6, 12), 0.5, 0.9)) ],
+          network(Dir, ring(6), Options, Network,
+              ( hosts(Network, [Host|_]),
+                wait_until(( remote(Host, now(Time)), Time > 12 ), 10) )),
+          network(Dir, ring(6), [], Network1,
+              wait_until(as_it_would_be(Network1, Edges, Expected), 20)) )).
 
 as_it_would_be(Network, Plan, Edges, Expected) :-
     hosts(Network, Hosts),
@@ -378,12 +364,10 @@ as_it_would_be(Network, Plan, Edges, Expected) :-
 
 refused(Dir, Topology, Options, Formal) :-
     contents(Dir, Before),
-    catch(no_leaks(network(Dir, Topology, Options, true)),
+    catch(no_leaks(network(Dir, Topology, Options, _, true)),
           error(Formal0, _), true),
     contents(Dir, Before),
     Formal = Formal0.
-
-true(_).
 
 contents(Dir, Contents) :-
     findall(File-Codes,
@@ -401,7 +385,7 @@ test(journal_of_another_network_is_not_touched,
     with_tmp_dir(other(D, Formals)).
 
 other(D, Formals, D) :-
-    network(D, ring(3), [processes(2)], true),
+    network(D, ring(3), [processes(2)], _, true),
     findall(Formal,
             ( member(Topology-Options,
                      [ ring(4)-[], ring(3)-[processes(3)],
@@ -422,7 +406,7 @@ test(damaged_or_locked_journal_is_reported,
                  quiet(with_tmp_dir(no_good(Formals)))).
 
 no_good([F1, F2, F3], Dir) :-
-    network(Dir, ring(2), [processes(2)], true),
+    network(Dir, ring(2), [processes(2)], _, true),
     directory_file_path(Dir, 'process2', Second),
     directory_file_path(Second, 'journal.db', File),
     directory_file_path(Dir, 'network.pl', Record),
@@ -432,9 +416,10 @@ no_good([F1, F2, F3], Dir) :-
                         flush_output, read(_)', [Second]),
     with_swipl(['-g', Goal, '-t', halt, Store], _, _, Out,
                ( read_line_to_string(Out, "open"),
-                 catch(no_leaks(network(Dir, ring(2), [], true)),
+                 catch(no_leaks(network(Dir, ring(2), [], Network,
+                                        true(Network))),
                        error(F3, _), true) )),
-    no_leaks(network(Dir, ring(2), [], true)).
+    no_leaks(network(Dir, ring(2), [], _, true)).
 
 %   The journal is restored afterwards.
 
@@ -445,7 +430,7 @@ spoilt(Dir, File, Formal) :-
                        forall(between(1, 3000, I), writeln(Out, f(I))),
                        close(Out)),
     read_file_to_codes(File, Before, [type(binary)]),
-    catch(no_leaks(network(Dir, ring(2), [], true)),
+    catch(no_leaks(network(Dir, ring(2), [], _, true)),
           error(Formal, _), true),
     read_file_to_codes(File, Before, [type(binary)]),
     rename_file(Good, File).
@@ -491,11 +476,9 @@ test(hosts_restart_empty_without_a_journal) :-
     quiet(no_leaks(again)).
 
 again :-
-    setup_call_cleanup(
-        network_start(ring(4), Network,
-                      [ processes(2), restart(true), places(leave(food)) ]),
-        again(Network),
-        network_stop(Network)).
+    with_network(ring(4),
+                 [ processes(2), restart(true), places(leave(food)) ], Network,
+        again(Network)).
 
 again(Network) :-
     hosts(Network, Hosts),
@@ -520,7 +503,7 @@ test(network_is_saved_after_a_process_died) :-
 saved(Dir) :-
     directory_file_path(Dir, saved, File),
     network(Dir, ring(2), [processes(2), restart(true)],
-            saved_without(File)),
+            Network, saved_without(File, Network)),
     exists_file(File).
 
 saved_without(File, Network) :-
@@ -531,36 +514,26 @@ saved_without(File, Network) :-
 
 test(repeatedly_dying_process_is_given_up_and_reported,
      Told = [node_given_up(_, 1, 2, 60)]) :-
-    with_settings([typhon_restarts:restarts=2], quiet(no_leaks(too_often))),
+    with_settings([typhon_restarts:restarts=2], quiet(no_leaks(
+        ( with_network(ring(2), [processes(2), restart(true)], Network,
+              ( kill(Network, 1),
+                kill(Network, 1),
+                pids(Network, [Pid, Other]),
+                process_kill(Pid, kill),
+                wait_until(pids(Network, [Other]), 10),
+                hosts(Network, [_, _]) )) )))),
     findall(node_given_up(N, P, M, S),
             printed(node_given_up(N, P, M, S)), Told).
-
-too_often :-
-    setup_call_cleanup(
-        network_start(ring(2), Network, [processes(2), restart(true)]),
-        ( kill(Network, 1),
-          kill(Network, 1),
-          pids(Network, [Pid, Other]),
-          process_kill(Pid, kill),
-          wait_until(pids(Network, [Other]), 10),
-          hosts(Network, [_, _]) ),
-        network_stop(Network)).
-
 test(processes_restart_after_their_starter_thread_has_ended,
      true(Told == [server_ended])) :-
-    quiet(no_leaks(begun_by_another)),
+    quiet(no_leaks(
+        ( with_network(ring(2), [processes(2), restart(true)], Network,
+              ( wakes([Thread]),
+                thread_signal(Thread, throw('$aborted')),
+                wait_until(printed(server_ended(_)), 10),
+                kill(Network, 1),
+                hosts(Network, [_, _]) )) ))),
     findall(server_ended, printed(server_ended(_)), Told).
-
-begun_by_another :-
-    setup_call_cleanup(
-        network_start(ring(2), Network, [processes(2), restart(true)]),
-        ( wakes([Thread]),
-          thread_signal(Thread, throw('$aborted')),
-          wait_until(printed(server_ended(_)), 10),
-          kill(Network, 1),
-          hosts(Network, [_, _]) ),
-        network_stop(Network)).
-
 test(deaths_are_counted_across_threads,
      true(Told == [node_given_up(1, 1)])) :-
     with_settings([typhon_restarts:restarts=1],
@@ -568,16 +541,14 @@ test(deaths_are_counted_across_threads,
     findall(node_given_up(P, Most), printed(node_given_up(_, P, Most, _)), Told).
 
 counted_by_another :-
-    setup_call_cleanup(
-        network_start(ring(2), Network, [processes(2), restart(true)]),
+    with_network(ring(2), [processes(2), restart(true)], Network,
         ( kill(Network, 1),
           wakes([Thread]),
           thread_signal(Thread, throw('$aborted')),
           wait_until(printed(server_ended(_)), 10),
           pids(Network, [Pid, Other]),
           process_kill(Pid, kill),
-          wait_until(pids(Network, [Other]), 10) ),
-        network_stop(Network)).
+          wait_until(pids(Network, [Other]), 10) )).
 
 %   wakes(-Threads): the threads that restart processes of networks.
 
@@ -588,13 +559,11 @@ wakes(Threads) :-
             Threads).
 
 test(network_is_stopped_during_a_restart) :-
-    quiet(no_leaks(stopped_meanwhile)).
-
-stopped_meanwhile :-
-    network_start(ring(3), Network, [processes(3), restart(true)]),
-    pids(Network, [Pid|_]),
-    process_kill(Pid, kill),
-    wait_until(printed(node_down(_, _, _, _, _)), 5),
-    network_stop(Network).
+    quiet(no_leaks(
+        ( network_start(ring(3), Network, [processes(3), restart(true)]),
+          pids(Network, [Pid|_]),
+          process_kill(Pid, kill),
+          wait_until(printed(node_down(_, _, _, _, _)), 5),
+          network_stop(Network) ))).
 
 :- end_tests(network_restart).

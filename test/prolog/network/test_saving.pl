@@ -1,9 +1,11 @@
 :- module(test_saving, []).
 :- use_module('../../lib/common').
 :- use_module('../../lib/fixtures').
+:- use_module('../../lib/networks').
 :- use_module(library(plunit)).
 :- use_module(library(prolog_wrap), [unwrap_predicate/2, wrap_predicate/4]).
 :- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(random), [random/3]).
@@ -22,18 +24,11 @@
 */
 
 :- meta_predicate
-    with_network(+, +, -, 0).
+    with_file(-, 0),
+    with_scenario(+, +, -, -, 0).
 
-with_network(Topology, Options, Network, Goal) :-
-    no_leaks(setup_call_cleanup(
-                 network_start(Topology, Network, Options),
-                 once(Goal),
-                 stopped(Network))).
-
-%   The test may have stopped the network.
-
-stopped(Network) :-
-    catch(network_stop(Network), error(existence_error(network, _), _), true).
+with_file(File, Goal) :-
+    with_tmp_dir(Dir, ( atom_concat(Dir, '/file', File), Goal )).
 
                 /*******************************
                 *           SCENARIOS          *
@@ -96,33 +91,25 @@ wanderer(Host) :-
                                        )) ]),
                  _, [host(Host)]).
 
-started(Name, File, Network, Seconds) :-
+%   with_scenario(+Name, +Log, -Network, -Seconds, :Goal)
+
+with_scenario(Name, Log, Network, Seconds, Goal) :-
     scenario(Name, Topology, Options, Seconds),
-    network_start(Topology, Network,
-                  [ clock(virtual), seed(3),
-                    log(File, [hops, messages, facts, faults, links, hosts])
-                  | Options ]),
-    network_property(Network, hosts(Hosts)),
-    begun(Name, Network, Hosts).
+    with_network(Topology,
+                 [ clock(virtual), seed(3),
+                   log(Log, [hops, messages, facts, faults, links, hosts])
+                 | Options ], Network, Hosts,
+                 ( begun(Name, Network, Hosts), Goal )).
 
-%   whole(+Name, +File, -Text): the log of an uninterrupted run.
+%   whole(+Name, +Log, -Text): the log of an uninterrupted run.
 
-whole(Name, File, Text) :-
-    no_leaks(setup_call_cleanup(
-                 started(Name, File, Network, Seconds),
-                 network_advance(Network, Seconds),
-                 network_stop(Network))),
-    read_file_to_string(File, Text, []).
-
-%   interrupted(+Name, +Times, +Log, +File, -Text): the log of a run that is
-%   saved at each of Times, continues for a while, is stopped, and loaded.
-
-interrupted(Name, Times, Log, File, Text) :-
-    no_leaks(setup_call_cleanup(
-                 started(Name, Log, First, Seconds),
-                 resumed(Times, 0, Seconds, First, File),
-                 stopped(First))),
+whole(Name, Log, Text) :-
+    with_scenario(Name, Log, Network, Seconds,
+                  network_advance(Network, Seconds)),
     read_file_to_string(Log, Text, []).
+
+%   resumed(+Times, +Now, +End, +Network, +File): a run that is saved at each of
+%   Times, continues for a while, is stopped, and loaded.
 
 resumed([], Now, End, Network, _) :-
     Seconds is End-Now,
@@ -136,23 +123,6 @@ resumed([Time|Times], Now, End, Network, File) :-
     network_stop(Network),
     network_load(File, Next, []),
     resumed(Times, Time, End, Next, File).
-
-goes_on_alike(Name) :-
-    capturing(with_tmp_dir(goes_on_alike(Name)), _).
-
-goes_on_alike(Name, Dir) :-
-    atom_concat(Dir, '/log.pl', Log),
-    atom_concat(Dir, '/file.net', File),
-    whole(Name, Log, Whole),
-    scenario(Name, _, _, Seconds),
-    random(0.0, Seconds, T1),
-    random(0.0, Seconds, T2),
-    msort([T1,T2], Times),
-    interrupted(Name, Times, Log, File, Text),
-    (   Text == Whole
-    ->  true
-    ;   throw(error(other_log(Name, Times), _))
-    ).
 
                 /*******************************
                 *           REAL TIME          *
@@ -217,89 +187,72 @@ all_there(Network, File, Count, Sent) :-
     saved(Network, File, Agents, Sent, Got),
     assertion(Agents-Got == Count-Sent).
 
-consistent(Options, Dir) :-
-    atom_concat(Dir, '/file', File),
+consistent(Options, File) :-
     with_network(mesh(5), Options, Network,
                  ( traffic(Network),
                    forall(between(1, 6, _),
                           ( pause(0.05), all_there(Network, File, 6, _) )) )),
-    network_load(File, Again, []),
-    call_cleanup(( pause(0.3),
-                   all_there(Again, File, 6, Sent),
-                   wait_until(( all_there(Again, File, 6, More),
-                                More > Sent ), 20) ),
-                 stopped(Again)).
+    with_loaded_network(File, Again,
+                        ( pause(0.3),
+                          all_there(Again, File, 6, Sent),
+                          wait_until(( all_there(Again, File, 6, More),
+                                       More > Sent ), 20) )).
 
 pause(Seconds) :-
     thread_self(Me),
     \+ thread_get_message(Me, '$never', [timeout(Seconds)]).
 
+raised(Goal, Name) :-
+    catch(Goal, error(Formal, _), true),
+    functor(Formal, Name, _).
+
+:- meta_predicate raised(0, -).
+
 :- begin_tests(real_networks_are_saved).
 
 test(each_checkpoint_is_consistent, [forall(member(P, [1,3]))]) :-
-    capturing(with_tmp_dir(consistent([processes(P)])), _).
-test(clock_continues) :-
-    with_tmp_dir(clock_goes_on).
-test(appointments_links_and_names_are_restored, true(Said == [early,late])) :-
-    with_tmp_dir(everything(Said)).
-test(other_hosts_remain, true(Left-Ids == [mark]-1)) :-
-    with_tmp_dir(beside(Left, Ids)).
-test(port_is_in_use, error(socket_error(_, _))) :-
-    with_tmp_dir(beside_itself).
-test(unresponsive_process, true(Result == [timeout_error,alive])) :-
-    with_tmp_dir(hanging(Result)).
-test(missing_process,
-     error(existence_error(carrier, _))) :-
-    capturing(with_tmp_dir(gone), _).
-test(agent_that_does_not_stop, error(timeout_error(save, _))) :-
-    with_tmp_dir(busy).
-
-:- end_tests(real_networks_are_saved).
+    capturing(with_file(File, consistent([processes(P)], File)), _).
 
 %   Between saving and loading time stands still, also for agents that sleep.
 
-clock_goes_on(Dir) :-
-    atom_concat(Dir, '/file', File),
-    with_network(ring(2), [clock(100)], N1,
-                 ( agent_create(clauses([ (:- agent(a)),
-                                          (main :- sleep(60), now(T),
-                                                   result(T)) ]), A),
-                   network_save(N1, File),
-                   remote(n1, now(T1)) )),
-    pause(1),
-    get_time(R0),
-    no_leaks(setup_call_cleanup(
-                 network_load(File, N2, []),
-                 ( remote(n1, now(T2)),
-                   get_time(R2),
-                   agent_join(A, done, 20),
-                   get_time(R3),
-                   agent_result(A, T, 5) ),
-                 stopped(N2))),
+test(clock_continues) :-
+    with_file(File,
+        ( with_network(ring(2), [clock(100)], N1,
+                       ( agent_create(clauses([ (:- agent(a)),
+                                                (main :- sleep(60), now(T),
+                                                         result(T)) ]), A),
+                         network_save(N1, File),
+                         remote(n1, now(T1)) )),
+          pause(1),
+          get_time(R0),
+          with_loaded_network(File, _,
+                              ( remote(n1, now(T2)),
+                                get_time(R2),
+                                agent_join(A, done, 20),
+                                get_time(R3),
+                                agent_result(A, T, 5) )) )),
     assertion(T2-T1 =< (R2-R0)*100),
     assertion((T >= 60, T-T1 =< (R3-R0)*100)).
 
 %   An appointment is executed once, links are as before, they change as
 %   before, and the log continues.
 
-everything(Said, Dir) :-
-    atom_concat(Dir, '/file', File),
-    atom_concat(Dir, '/log', Log),
-    with_network(mesh(4), [ clock(10), processes(2), log(Log, [links]),
-                            dynamic(links(uniform(1, 2), 0.5, 0.5)) ], N1,
-                 ( network_property(N1, hosts([Host|_])),
-                   network_at(N1, 1, say(Host, early)),
-                   network_at(N1, 9, say(Host, late)),
-                   network_advance(N1, 5),
-                   network_property(N1, hosts(Hosts)),
-                   log_events(Log, Before),
-                   network_save(N1, File) )),
-    no_leaks(setup_call_cleanup(
-                 network_load(File, N2, []),
-                 ( network_property(N2, hosts(Hosts)),
-                   network_advance(N2, 30) ),
-                 stopped(N2))),
-    log_events(Log, Events),
+test(appointments_links_and_names_are_restored, true(Said == [early,late])) :-
+    with_file(File,
+        ( atom_concat(File, '.log', Log),
+          with_network(mesh(4), [ clock(10), processes(2), log(Log, [links]),
+                                  dynamic(links(uniform(1, 2), 0.5, 0.5)) ],
+                       N1, Hosts,
+                       ( Hosts = [Host|_],
+                         network_at(N1, 1, say(Host, early)),
+                         network_at(N1, 9, say(Host, late)),
+                         network_advance(N1, 5),
+                         log_events(Log, Before),
+                         network_save(N1, File) )),
+          with_loaded_network(File, N2,
+                              ( network_property(N2, hosts(Hosts)),
+                                network_advance(N2, 30) )),
+          log_events(Log, Events) )),
     append(Before, After, Events),
     assertion(N1 == N2),
     assertion(( member(event(_, _, _, link(_)), After) )),
@@ -312,76 +265,55 @@ say(Host, What) :-
 
 %   Another host of this process is not saved, and continues.
 
-beside(Left, Count, Dir) :-
-    atom_concat(Dir, '/file', File),
-    with_hosts([own],
-               ( agent_create(clauses([ (:- agent(b)),
-                                        (main :- receive(_), leave(mark)) ]),
-                              B, [host(own)]),
-                 setup_call_cleanup(
-                     network_start(ring(2), N1, []),
-                     ( agent_create(clauses([ (:- agent(a)),
-                                              (main :- receive(_),
-                                                       leave(mark)) ]),
-                                    A, [host(n1)]),
-                       remote(own, leave(no)),
-                       network_save(N1, File) ),
-                     stopped(N1)),
-                 setup_call_cleanup(
-                     network_load(File, N2, []),
-                     ( agent_send(B, go), agent_join(B, done, 10),
-                       agent_send(A, go), agent_join(A, done, 10),
-                       findall(X, remote(n1, findall(Y, sense(Y), X)), [Left]),
-                       remote(own, aggregate_all(count, sense(no), Count)) ),
-                     stopped(N2)) )).
+test(other_hosts_remain, true(Left-Count == [mark]-1)) :-
+    Program = clauses([(:- agent(a)), (main :- receive(_), leave(mark))]),
+    with_file(File, with_hosts([own],
+        ( agent_create(Program, B, [host(own)]),
+          with_network(ring(2), [], N1,
+                       ( agent_create(Program, A, [host(n1)]),
+                         remote(own, leave(no)),
+                         network_save(N1, File) )),
+          with_loaded_network(
+              File, _,
+              ( forall(member(Agent, [B, A]),
+                       ( agent_send(Agent, go), agent_join(Agent, done, 10) )),
+                findall(X, remote(n1, findall(Y, sense(Y), X)), [Left]),
+                remote(own, aggregate_all(count, sense(no), Count)) )) ))).
 
-beside_itself(Dir) :-
-    atom_concat(Dir, '/file', File),
-    with_network(ring(2), [processes(2)], N,
-                 ( network_save(N, File),
-                   network_load(File, _, []) )).
+%   One process is stopped, which prints nothing, then killed.
 
-%   Stopped processes print nothing.
-
-hanging([Error,alive], Dir) :-
-    atom_concat(Dir, '/file', File),
-    with_network(ring(2), [processes(2)], N,
-                 ( network_property(N, processes([_,Pid])),
-                   process_kill(Pid, stop),
-                   call_cleanup(
-                       catch(with_settings([typhon_saving:hold_seconds=0.5],
-                                           network_save(N, File)),
-                             error(Formal, _), true),
+test(unresponsive_and_missing_process,
+     Errors = [socket_error, timeout_error, existence_error(carrier, _)]) :-
+    capturing(with_file(File, with_network(ring(2), [processes(2)], N, Hosts,
+        ( network_save(N, File),
+          raised(network_load(File, _, []), InUse),
+          delete_file(File),
+          network_property(N, processes([_,Pid])),
+          process_kill(Pid, stop),
+          call_cleanup(with_settings([typhon_saving:hold_seconds=0.5],
+                                     raised(network_save(N, File), Hanging)),
                        process_kill(Pid, cont)),
-                   functor(Formal, Error, _),
-                   \+ exists_file(File),
-                   goes_round(N),
-                   network_save(N, File) )).
+          \+ exists_file(File),
+          goes_round(Hosts),
+          network_save(N, File),
+          process_kill(Pid, kill),
+          wait_until(network_property(N, processes([_])), 20),
+          catch(network_save(N, File), error(Gone, _), true) ))), _),
+    Errors = [InUse, Hanging, Gone].
 
-goes_round(Network) :-
-    network_property(Network, hosts([A,B])),
-    agent_create(clauses([ (:- agent(a)),
-                           (main :- move(B), move(A)) ]),
+goes_round([A,B]) :-
+    agent_create(clauses([(:- agent(a)), (main :- move(B), move(A))]),
                  Agent, [host(A)]),
     agent_join(Agent, done, 20).
 
-gone(Dir) :-
-    atom_concat(Dir, '/file', File),
-    with_network(ring(2), [processes(2)], N,
-                 ( network_property(N, processes([_,Pid])),
-                   process_kill(Pid, kill),
-                   wait_until(network_property(N, processes([_])), 20),
-                   network_save(N, File) )).
-
 %   The agent holds its worker in one goal.
 
-busy(Dir) :-
-    atom_concat(Dir, '/file', File),
-    with_settings([typhon_saving:hold_seconds=0.3],
-                  with_network(ring(2), [], N,
-                               ( holding_on,
-                                 wait_until(remote(n1, sense(begun)), 20),
-                                 network_save(N, File) ))).
+test(agent_that_does_not_stop, error(timeout_error(save, _))) :-
+    with_file(File, with_settings([typhon_saving:hold_seconds=0.3],
+        with_network(ring(2), [], N,
+                     ( holding_on,
+                       wait_until(remote(n1, sense(begun)), 20),
+                       network_save(N, File) )))).
 
 holding_on :-
     agent_create(clauses([ (:- agent(a)),
@@ -393,82 +325,71 @@ holding_on :-
                                     )) ]),
                  _).
 
-%   Another process loads the network after it was stopped here.
+:- end_tests(real_networks_are_saved).
 
-interrupted_elsewhere(Name, Dir) :-
-    atom_concat(Dir, '/log.pl', Log),
-    atom_concat(Dir, '/file.net', File),
-    whole(Name, Log, Whole),
-    no_leaks(setup_call_cleanup(
-                 started(Name, Log, Network, Seconds),
-                 ( network_advance(Network, 5),
-                   network_save(Network, File) ),
-                 network_stop(Network))),
-    module_property(test_saving, file(Here)),
-    Rest is Seconds-5,
-    format(atom(Goal), "test_saving:on_from('~w', ~w)", [File, Rest]),
-    run_swipl(['-g', Goal, '-t', halt, Here], [], exit(0), _, _),
-    read_file_to_string(Log, Text, []),
-    Text == Whole.
+%   The test of another process calls it, too.
 
 on_from(File, Seconds) :-
-    network_load(File, Network, []),
-    network_advance(Network, Seconds),
-    network_stop(Network).
+    with_loaded_network(File, Network, network_advance(Network, Seconds)).
 
 :- begin_tests(virtual_networks_are_saved).
 
-test(at_random_instants, [forall(scenario(Name, _, _, _))]) :-
-    goes_on_alike(Name).
-test(in_another_process) :-
-    capturing(with_tmp_dir(interrupted_elsewhere(wanderers)), _).
-test(saved_by_an_appointment, true(Text == Whole)) :-
-    capturing(with_tmp_dir(by_appointment(Whole, Text)), _).
-test(loaded_with_another_log, true(Whole =@= Text)) :-
-    capturing(with_tmp_dir(another_log(Whole, Text)), _).
-test(ids_and_names_continue, true(Ids == ['a.v.0@n1@virtual:0',
-                                          'a.v.1@n1@virtual:0'])) :-
-    with_tmp_dir(ids(Ids)).
-test(rule_in_the_state_of_an_agent, true(X == at(1))) :-
-    with_tmp_dir(twice(X)).
+test(at_random_instants,
+     [forall(scenario(Name, _, _, Seconds)), Times-Text == Times-Whole]) :-
+    random(0.0, Seconds, T1),
+    random(0.0, Seconds, T2),
+    msort([T1,T2], Times),
+    capturing(with_file(File,
+        ( atom_concat(File, '.log', Log),
+          whole(Name, Log, Whole),
+          with_scenario(Name, Log, Network, _,
+                        resumed(Times, 0, Seconds, Network, File)),
+          read_file_to_string(Log, Text, []) )), _).
 
-:- end_tests(virtual_networks_are_saved).
+%   Another process loads the network after it was stopped here.
 
-by_appointment(Whole, Text, Dir) :-
-    atom_concat(Dir, '/log.pl', Log),
-    atom_concat(Dir, '/file.net', File),
-    no_leaks(setup_call_cleanup(
-                 started(wanderers, Log, N1, Seconds),
-                 ( network_at(N1, 7.5, network_save(N1, File)),
-                   network_advance(N1, Seconds) ),
-                 network_stop(N1))),
-    read_file_to_string(Log, Whole, []),
-    Rest is Seconds-7.5,
-    no_leaks(on_from(File, Rest)),
-    read_file_to_string(Log, Text, []).
+test(in_another_process, Text == Whole) :-
+    capturing(with_file(File,
+        ( atom_concat(File, '.log', Log),
+          whole(wanderers, Log, Whole),
+          with_scenario(wanderers, Log, Network, Seconds,
+                        ( network_advance(Network, 5),
+                          network_save(Network, File) )),
+          module_property(test_saving, file(Here)),
+          Rest is Seconds-5,
+          format(atom(Goal), "test_saving:on_from('~w', ~w)", [File, Rest]),
+          run_swipl(['-g', Goal, '-t', halt, Here], [], exit(0), _, _),
+          read_file_to_string(Log, Text, []) )), _).
+test(saved_by_an_appointment, Text == Whole) :-
+    capturing(with_file(File,
+        ( atom_concat(File, '.log', Log),
+          with_scenario(wanderers, Log, N1, Seconds,
+                        ( network_at(N1, 7.5, network_save(N1, File)),
+                          network_advance(N1, Seconds) )),
+          read_file_to_string(Log, Whole, []),
+          Rest is Seconds-7.5,
+          on_from(File, Rest),
+          read_file_to_string(Log, Text, []) )), _).
 
 %   The other log has only later events.
 
-another_log(Rest, Text, Dir) :-
-    atom_concat(Dir, '/log.pl', Log),
-    atom_concat(Dir, '/other.pl', Other),
-    atom_concat(Dir, '/file.net', File),
-    no_leaks(setup_call_cleanup(
-                 started(wanderers, Log, N1, _),
-                 ( network_advance(N1, 3),
-                   log_events(Log, Before),
-                   network_save(N1, File),
-                   network_advance(N1, 3) ),
-                 network_stop(N1))),
-    log_events(Log, All),
-    append(Before, After, All),
-    without_stops(After, Rest),
-    no_leaks(( network_load(File, N2, [log(Other)]),
-               network_advance(N2, 3),
-               network_stop(N2) )),
-    log_events(Other, Events),
-    without_stops(Events, Text),
-    Text \== [].
+test(loaded_with_another_log, Whole =@= Text) :-
+    capturing(with_file(File,
+        ( maplist(atom_concat(File), ['.log', '.other'], [Log, Other]),
+          with_scenario(wanderers, Log, N1, _,
+                        ( network_advance(N1, 3),
+                          log_events(Log, Before),
+                          network_save(N1, File),
+                          network_advance(N1, 3) )),
+          log_events(Log, All),
+          append(Before, After, All),
+          without_stops(After, Whole),
+          no_leaks(( network_load(File, N2, [log(Other)]),
+                     network_advance(N2, 3),
+                     network_stop(N2) )),
+          log_events(Other, Events),
+          without_stops(Events, Text),
+          Text \== [] )), _).
 
 without_stops(Events0, Events) :-
     findall(Event,
@@ -476,138 +397,124 @@ without_stops(Events0, Events) :-
               Event = event(Time, _, _, _), Time < 6 ),
             Events).
 
-ids([A,B], Dir) :-
-    atom_concat(Dir, '/file.net', File),
-    with_network(ring(3), [clock(virtual), seed(1)], N1,
-                 ( idler(A), network_advance(N1, 1), network_save(N1, File) )),
-    no_leaks(setup_call_cleanup(
-                 network_load(File, N2, []),
-                 ( N2 == N1,
-                   agent_property(A, state(waiting)),
-                   idler(B) ),
-                 network_stop(N2))).
+test(ids_and_names_continue,
+     N2-A-B == N1-'a.v.0@n1@virtual:0'-'a.v.1@n1@virtual:0') :-
+    with_file(File,
+        ( saved_small(File, N1, A),
+          with_loaded_network(File, N2,
+                              ( agent_property(A, state(waiting)),
+                                idler(B) )) )).
+
+saved_small(File, N, A) :-
+    with_network(ring(3), [clock(virtual), seed(3)], N,
+                 ( idler(A), network_advance(N, 1), network_save(N, File) )).
 
 idler(Agent) :-
     agent_create(clauses([ (:- agent(a)), (main :- receive(_)) ]), Agent).
 
 %   The variable is unified before it is used.
 
-twice(X, Dir) :-
-    atom_concat(Dir, '/file.net', File),
-    with_network(ring(3), [clock(virtual), seed(1)], N1,
-                 ( agent_create(clauses([ (:- agent(a, [state([same/2])])),
-                                          (main :- receive(_-Y), same(Y, Z),
-                                                   leave(got(Z))) ]),
-                                A,
-                                [ facts([ (same(P, Q) :- P = at(_),
-                                           ( P = at(2) -> Q = two
-                                           ; Q = P )) ]) ]),
-                   network_save(N1, File) )),
-    no_leaks(setup_call_cleanup(
-                 network_load(File, N2, []),
-                 ( network_save(N2, File),
-                   network_stop(N2),
-                   network_load(File, N3, []),
-                   agent_send(A, at(1)),
-                   agent_join(A, done, 10),
-                   remote(n1, sense(got(X))) ),
-                 stopped(N3))).
+test(rule_in_the_state_of_an_agent, X == at(1)) :-
+    Rule = ( same(P, Q) :- P = at(_), ( P = at(2) -> Q = two ; Q = P ) ),
+    with_file(File,
+        ( with_network(ring(3), [clock(virtual), seed(1)], N1,
+                       ( agent_create(clauses([ (:- agent(a, [state([same/2])])),
+                                                (main :- receive(_-Y),
+                                                         same(Y, Z),
+                                                         leave(got(Z))) ]),
+                                      A, [facts([Rule])]),
+                         network_save(N1, File) )),
+          with_loaded_network(File, N2, network_save(N2, File)),
+          with_loaded_network(File, _,
+                              ( agent_send(A, at(1)),
+                                agent_join(A, done, 10),
+                                remote(n1, sense(got(X))) )) )).
 
                 /*******************************
                 *             ERRORS           *
                 *******************************/
 
+%   refused(?What, +Network, +File, -Goal, -Formal): Goal raises the error,
+%   beside a Network in virtual time that is saved in File.
+
+refused(missing_directory, N, _, network_save(N, '/no/such/directory/file'),
+        existence_error(source_sink, '/no/such/directory/file')).
+refused(no_such_network, _, _, network_save(none, file),
+        existence_error(network, none)).
+refused(other_host_in_the_process, N, _,
+        setup_call_cleanup(host_start(beside, [clock(virtual)]),
+                           network_save(N, file),
+                           host_stop(beside)),
+        permission_error(save, host, 'beside@virtual:0')).
+refused(second_virtual_clock, _, File, network_load(File, _, []),
+        permission_error(load, virtual_time, _)).
+refused(no_such_file, _, _, network_load('/no/such/file', _, []),
+        existence_error(source_sink, _)).
+refused(unknown_option, _, _, network_load('/no/such/file', _, [foo]),
+        domain_error(network_load_option, foo)).
+refused(item_that_no_table_takes, _, _,
+        typhon_snapshot:process_restore(real, [item(moves, 'x@y', 0, '')]),
+        domain_error(saved_item, item(moves, 'x@y', 0, ''))).
+
 :- begin_tests(networks_that_cannot_be_saved_or_loaded).
 
-test(missing_directory,
-     error(existence_error(source_sink, '/no/such/directory/file'))) :-
-    with_network(ring(3), [clock(virtual)], N,
-                 network_save(N, '/no/such/directory/file')).
-test(no_such_network, error(existence_error(network, none))) :-
-    network_save(none, file).
-test(unserializable_state,
-     all(Result == [type_error, "old", goes_on])) :-
-    with_tmp_dir(unwritable(Results)),
-    member(Result, Results).
+test(refused, [forall(refused(What, N, File, Goal, Formal))]) :-
+    with_file(File,
+        with_network(ring(3), [clock(virtual)], N,
+                     ( network_save(N, File),
+                       catch(Goal, error(Raised, _), true) ))),
+    assertion(What-Raised = What-Formal),
+    assertion(nonvar(Raised)).
+test(unserializable_state, Error-Old == type_error-"old") :-
+    with_file(File,
+        ( setup_call_cleanup(open(File, write, Out), write(Out, old),
+                             close(Out)),
+          with_network(ring(3), [clock(virtual)], N,
+                       ( agent_create(clauses([ (:- agent(a, [state([s/1])])),
+                                                (main :- current_output(S),
+                                                         assertz(s(S)),
+                                                         receive(_)) ]), A),
+                         network_advance(N, 1),
+                         raised(network_save(N, File), Error),
+                         agent_send(A, end),
+                         agent_join(A, done, 10) )),
+          file_directory_name(File, Dir),
+          directory_files(Dir, Files),
+          msort(Files, ['.', '..', file]),
+          read_file_to_string(File, Old, []) )).
 test(file_that_is_not_complete_replaces_no_older_one,
      [Formal, Old] == [resource_error(disk), New]) :-
-    with_tmp_dir(not_complete(Formal, Old, New)).
-test(other_host_in_the_process,
-     error(permission_error(save, host, 'beside@virtual:0'))) :-
-    with_network(ring(3), [clock(virtual)], N,
-                 setup_call_cleanup(
-                     host_start(beside, [clock(virtual)]),
-                     network_save(N, file),
-                     host_stop(beside))).
-test(second_virtual_clock_is_refused,
-     error(permission_error(load, virtual_time, _))) :-
-    with_tmp_dir(loaded_beside).
-test(no_such_file, error(existence_error(source_sink, _))) :-
-    network_load('/no/such/file', _, []).
-test(unknown_option,
-     error(domain_error(network_load_option, foo))) :-
-    network_load('/no/such/file', _, [foo]).
+    with_file(File, not_complete(Formal, Old, New, File)).
 test(note_of_a_faulty_agent_in_the_form_of_0_1_0_is_read) :-
     typhon_snapshot:process_restore(real, [item(stays, 'x@y', 0, '')]).
-test(item_that_no_table_takes_is_an_error,
-     error(domain_error(saved_item, item(moves, 'x@y', 0, '')))) :-
-    typhon_snapshot:process_restore(real, [item(moves, 'x@y', 0, '')]).
-test(damaged, [ forall(member(How-Why, [ another-no_network,
-                                         half-cut_short,
-                                         tail-cut_short,
-                                         bit-changed ])),
-                error(network_damaged(_, Why)) ]) :-
-    with_tmp_dir(load_damaged(How)).
-test(other_version, error(network_version(_, 99))) :-
-    with_tmp_dir(load_damaged(version)).
+test(damaged, [ forall(member(How-Formal,
+                              [ another-network_damaged(_, no_network),
+                                half-network_damaged(_, cut_short),
+                                tail-network_damaged(_, cut_short),
+                                bit-network_damaged(_, changed),
+                                version-network_version(_, 99) ])),
+                error(Formal) ]) :-
+    with_file(File, load_damaged(How, File)).
 
 :- end_tests(networks_that_cannot_be_saved_or_loaded).
 
-unwritable([Error,Old,goes_on], Dir) :-
-    atom_concat(Dir, '/file', File),
-    setup_call_cleanup(open(File, write, Out), write(Out, old), close(Out)),
-    with_network(ring(3), [clock(virtual)], N,
-                 ( agent_create(clauses([ (:- agent(a, [state([s/1])])),
-                                          (main :- current_output(S),
-                                                   assertz(s(S)),
-                                                   receive(_)) ]), A),
-                   network_advance(N, 1),
-                   catch(network_save(N, File), error(Formal, _), true),
-                   functor(Formal, Error, _),
-                   agent_send(A, end),
-                   agent_join(A, done, 10) )),
-    directory_files(Dir, Files),
-    msort(Files, ['.', '..', file]),
-    read_file_to_string(File, Old, []).
-
 %   Writing ends with an error when most has been written.
 
-not_complete(Formal, Old, New, Dir) :-
-    atom_concat(Dir, '/file', File),
-    saved_small(File),
+not_complete(Formal, Old, New, File) :-
+    saved_small(File, _, _),
     read_file_to_string(File, Old, []),
     setup_call_cleanup(
         wrap_predicate(typhon_saving:sum(_, _), test_saving, _,
                        throw(error(resource_error(disk), _))),
-        catch(saved_small(File), error(Formal, _), true),
+        catch(saved_small(File, _, _), error(Formal, _), true),
         unwrap_predicate(typhon_saving:sum/2, test_saving)),
+    file_directory_name(File, Dir),
     directory_files(Dir, Files),
     msort(Files, ['.', '..', file]),
     read_file_to_string(File, New, []).
 
-saved_small(File) :-
-    with_network(ring(3), [clock(virtual), seed(3)], N,
-                 ( idler(_), network_save(N, File) )).
-
-loaded_beside(Dir) :-
-    atom_concat(Dir, '/file', File),
-    with_network(ring(3), [clock(virtual)], N,
-                 ( network_save(N, File),
-                   network_load(File, _, []) )).
-
-load_damaged(How, Dir) :-
-    atom_concat(Dir, '/file', File),
-    saved_small(File),
+load_damaged(How, File) :-
+    saved_small(File, _, _),
     read_file_to_string(File, Text0, [encoding(octet)]),
     damaged(How, Text0, Text),
     setup_call_cleanup(open(File, write, Out, [encoding(octet)]),

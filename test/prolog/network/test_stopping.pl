@@ -1,4 +1,5 @@
 :- use_module('../../lib/common').
+:- use_module('../../lib/networks').
 :- use_module('../../lib/fixtures').
 :- use_module(library(plunit)).
 :- use_module(library(lists), [member/2, nth0/3]).
@@ -19,10 +20,8 @@ faults of agents are.
 stopped(Options, Clauses, Count, Told) :-
     with_settings([ typhon_processes:answer_seconds=30,    % a slow machine
                     typhon_children:stop_seconds=30 ],
-                  capturing(setup_call_cleanup(
-                                network_start(ring(6), Network, Options),
-                                busy(Network, Clauses, Count),
-                                network_stop(Network)), Told)).
+                  capturing(with_network(ring(6), Options, Network,
+                                busy(Network, Clauses, Count)), Told)).
 
 busy(Network, Clauses, Count) :-
     network_property(Network, hosts(Hosts)),
