@@ -401,28 +401,22 @@ story(Dir) :-
     typhon_error([story, File, b], "agents in it: a.x.1, a.x.2").
 
 test(outputs_do_not_overwrite_a_log) :-
-    with_tmp_dir(log_as_output).
-
-log_as_output(Dir) :-
-    log_of(Dir, Log),
-    write_file(Dir, 'run.html', "text", Other),
-    read_file_to_string(Log, Before, []),
-    forall(member(Args, [ [page, Other, '--export', Log],
-                          [page, Log, '--export', Log],
-                          [picture, Log, Log] ]),
-           typhon_error(Args, "is not overwritten")),
-    read_file_to_string(Log, After, []),
-    assertion(Before == After).
-
+    with_tmp_dir(Dir,
+        ( log_of(Dir, Log),
+          write_file(Dir, 'run.html', "text", Other),
+          read_file_to_string(Log, Before, []),
+          forall(member(Args, [ [page, Other, '--export', Log],
+                                [page, Log, '--export', Log],
+                                [picture, Log, Log] ]),
+                 typhon_error(Args, "is not overwritten")),
+          read_file_to_string(Log, After, []),
+          assertion(Before == After) )).
 test(page_without_events_is_not_written) :-
-    with_tmp_dir(page_of_nothing).
-
-page_of_nothing(Dir) :-
-    write_file(Dir, 'empty.pl', "", Empty),
-    directory_file_path(Dir, 'new.html', Html),
-    typhon_error([page, Empty, '--export', Html], "has no events"),
-    assertion(\+ exists_file(Html)).
-
+    with_tmp_dir(Dir,
+        ( write_file(Dir, 'empty.pl', "", Empty),
+          directory_file_path(Dir, 'new.html', Html),
+          typhon_error([page, Empty, '--export', Html], "has no events"),
+          assertion(\+ exists_file(Html)) )).
 test(picture) :-
     with_tmp_dir(picture).
 

@@ -48,19 +48,16 @@ test(only_one_module_parses_arguments, Others == []) :-
             Others).
 
 test(files_without_dashes_are_an_error, forall(program_of_files(Rel, More))) :-
-    with_tmp_dir(without_dashes(Rel, More)).
-
-without_dashes(Relative, More, Dir) :-
-    project_file(Relative, Script),
-    directory_file_path(Dir, 'round.pl', File),
-    setup_call_cleanup(open(File, write, Out),
-                       write(Out, ':- true.\n'),
-                       close(Out)),
-    run_swipl([Script, File|More], [timeout(60)], Status, Text, Err),
-    assertion(Status-Text == exit(1)-""),
-    atomic_list_concat([Script, --, File|More], ' ', Command),
-    assertion(sub_string(Err, _, _, _, Command)).
-
+    with_tmp_dir(Dir,
+        ( project_file(Rel, Script),
+          directory_file_path(Dir, 'round.pl', File),
+          setup_call_cleanup(open(File, write, Out),
+                             write(Out, ':- true.\n'),
+                             close(Out)),
+          run_swipl([Script, File|More], [timeout(60)], Status, Text, Err),
+          assertion(Status-Text == exit(1)-""),
+          atomic_list_concat([Script, --, File|More], ' ', Command),
+          assertion(sub_string(Err, _, _, _, Command)) )).
 test(words_that_a_program_does_not_take_are_an_error) :-
     project_file('bench/profile.pl', Script),
     run_swipl([Script, --, nonsense], [timeout(60)], Status, Text, Err),
@@ -68,12 +65,10 @@ test(words_that_a_program_does_not_take_are_an_error) :-
     assertion(sub_string(Err, _, _, _, "profile.pl does not take")).
 
 test(files_after_dashes_are_arguments) :-
-    with_tmp_dir(after_dashes).
-
-after_dashes(Dir) :-
-    project_file('doc/course/check.pl', Script),
-    directory_file_path(Dir, 'missing.pl', File),
-    run_swipl([Script, --, File], [timeout(60)], _, _, Err),
-    assertion(\+ sub_string(Err, _, _, _, "Arguments follow")).
+    with_tmp_dir(Dir,
+        ( project_file('doc/course/check.pl', Script),
+          directory_file_path(Dir, 'missing.pl', File),
+          run_swipl([Script, --, File], [timeout(60)], _, _, Err),
+          assertion(\+ sub_string(Err, _, _, _, "Arguments follow")) )).
 
 :- end_tests(arguments).

@@ -38,7 +38,25 @@ test(runs_in_any_environment,
 test(text_does_not_depend_on_the_locale,
      [ forall(member(Locale, ['C', 'POSIX', 'C.UTF-8'])),
        true(Line == "X=h\u00e9\u4e2d") ]) :-
-    with_tmp_dir(consulted(Locale, Line)).
+    with_tmp_dir(Dir,
+        ( directory_file_path(Dir, 'place.pl', File),
+          setup_call_cleanup(open(File, write, Out, [encoding(utf8)]),
+                             format(Out, "p('h\u00e9\u4e2d').~n", []),
+                             close(Out)),
+          free_port(Port),
+          format(atom(Set), 'export LC_ALL=~w;', [Locale]),
+          format(atom(At), '--port=~d --consult=~w', [Port, File]),
+          command([Set], [host, here, At], '', Serve),
+          process_create(path(sh), ['-c', Serve],
+                         [stdin(null), stdout(null), process(Pid)]),
+          format(atom(Host), 'here@127.0.0.1:~d', [Port]),
+          call_cleanup(( wait_until(answers(Host), 60),
+                         command([Set], [remote, Host, '"p(X)"'], '', Ask),
+                         sh(Ask, exit(0), Line0, ""),
+                         split_string(Line0, " ", "\n ", Parts),
+                         atomic_list_concat(Parts, Line1),
+                         atom_string(Line1, Line) ),
+                       ended(Pid)) )).
 
 test(cookie_of_other_characters_is_refused,
      [ forall(member(Bytes, ['caf\\303\\251-and-much-more-text', 'caf\\351',
@@ -110,26 +128,6 @@ other_file(Pid, N, File) :-
     ->  File \== '/dev/null'
     ;   File = closed
     ).
-
-consulted(Locale, Line, Dir) :-
-    directory_file_path(Dir, 'place.pl', File),
-    setup_call_cleanup(open(File, write, Out, [encoding(utf8)]),
-                       format(Out, "p('h\u00e9\u4e2d').~n", []),
-                       close(Out)),
-    free_port(Port),
-    format(atom(Set), 'export LC_ALL=~w;', [Locale]),
-    format(atom(At), '--port=~d --consult=~w', [Port, File]),
-    command([Set], [host, here, At], '', Serve),
-    process_create(path(sh), ['-c', Serve],
-                   [stdin(null), stdout(null), process(Pid)]),
-    format(atom(Host), 'here@127.0.0.1:~d', [Port]),
-    call_cleanup(( wait_until(answers(Host), 60),
-                   command([Set], [remote, Host, '"p(X)"'], '', Ask),
-                   sh(Ask, exit(0), Line0, ""),
-                   split_string(Line0, " ", "\n ", Parts),
-                   atomic_list_concat(Parts, Line1),
-                   atom_string(Line1, Line) ),
-                 ended(Pid)).
 
 checked(Status, Dir) :-
     directory_file_path(Dir, 'a.pl', File),

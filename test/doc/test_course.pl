@@ -110,11 +110,6 @@ write_program(Dir, Base, Text, File) :-
                        write(Out, Text),
                        close(Out)).
 
-not_a_program(Found, Dir) :-
-    write_program(Dir, 'round.pl', "main :- foo(.\n", File),
-    no_leaks(capturing(once(exercise_verdict(round, File,
-                                             verdict(_, Found))), _)).
-
                 /*******************************
                 *          THE COMMAND         *
                 *******************************/
@@ -129,37 +124,16 @@ hand_in(guard, Text) :-
 hand_in(richest, ":- agent(richest, []).\nmain :- main.\n").
 hand_in(tally, ":- agent(tally, []).\nmain :- shell('touch harmed').\n").
 
-handed_in(Goal) :-
-    with_tmp_dir(handed_in(Goal)).
+handed_in(Anna, Goal) :-
+    with_tmp_dir(Dir, ( handed_in_at(Dir, Anna), call(Goal) )).
 
-handed_in(Goal, Dir) :-
+:- meta_predicate handed_in(-, 0).
+
+handed_in_at(Dir, Anna) :-
     forall(hand_in(Exercise, Text),
            ( format(atom(Base), 'anna/~w.pl', [Exercise]),
              write_program(Dir, Base, Text, _) )),
-    directory_file_path(Dir, anna, Anna),
-    call(Goal, Anna).
-
-is_marked(Anna) :-
-    findall(File, ( member(Base, ['guard.pl', 'tally.pl']),
-                    directory_file_path(Anna, Base, File) ),
-            Files),
-    check([ '--csv'|Files ], exit(1), Out, _),
-    split_string(Out, "\n", "\r\n", [Header, Guard, Tally]),
-    assertion(Header == "file,exercise,points,of"),
-    assertion(sub_string(Guard, _, _, 0, "guard.pl,guard,4,4")),
-    assertion(sub_string(Tally, _, _, 0, "tally.pl,tally,0,2")),
-    assertion(\+ exists_file(harmed)).
-
-is_stopped(Anna) :-
-    check([Anna, '--only=richest', '--seconds=2'], Status, Out, _),
-    assertion(Status == exit(1)),
-    assertion(sub_string(Out, _, _, _, "FAIL  ends in time")).
-
-is_reported(Anna) :-
-    check([Anna, '--only=tally'], Status, Out, _),
-    assertion(Status == exit(1)),
-    assertion(sub_string(Out, _, _, _, "FAIL  answers with the sum")),
-    assertion(sub_string(Out, _, _, _, "0 of 1 programs pass")).
+    directory_file_path(Dir, anna, Anna).
 
                 /*******************************
                 *             TESTS            *
@@ -197,7 +171,16 @@ test(each_exercise_is_in_its_lesson, Missing == []) :-
             Missing).
 
 test(hand_ins_are_marked_in_a_table) :-
-    handed_in(is_marked).
+    handed_in(Anna,
+        ( findall(File, ( member(Base, ['guard.pl', 'tally.pl']),
+                          directory_file_path(Anna, Base, File) ),
+                  Files),
+          check([ '--csv'|Files ], exit(1), Out, _),
+          split_string(Out, "\n", "\r\n", [Header, Guard, Tally]),
+          assertion(Header == "file,exercise,points,of"),
+          assertion(sub_string(Guard, _, _, 0, "guard.pl,guard,4,4")),
+          assertion(sub_string(Tally, _, _, 0, "tally.pl,tally,0,2")),
+          assertion(\+ exists_file(harmed)) )).
 
 test(lessons_have_two_mistakes_each, Few == []) :-
     findall(Lesson,
@@ -215,10 +198,20 @@ test(mistake_in_a_check_is_its_own,
     solution(round, File),
     exercise_verdict(broken, File, verdict(broken, Found)).
 test(refused_program_is_a_mistake_of_it, true(string(Found))) :-
-    with_tmp_dir(not_a_program(Found)).
+    with_tmp_dir(Dir,
+        ( write_program(Dir, 'round.pl', "main :- foo(.\n", File),
+          no_leaks(capturing(once(exercise_verdict(round, File,
+                                                   verdict(_, Found))), _)) )).
 test(endless_program_is_stopped) :-
-    handed_in(is_stopped).
+    handed_in(Anna,
+        ( check([Anna, '--only=richest', '--seconds=2'], Status, Out, _),
+          assertion(Status == exit(1)),
+          assertion(sub_string(Out, _, _, _, "FAIL  ends in time")) )).
 test(a_program_that_fails_is_reported) :-
-    handed_in(is_reported).
+    handed_in(Anna,
+        ( check([Anna, '--only=tally'], Status, Out, _),
+          assertion(Status == exit(1)),
+          assertion(sub_string(Out, _, _, _, "FAIL  answers with the sum")),
+          assertion(sub_string(Out, _, _, _, "0 of 1 programs pass")) )).
 
 :- end_tests(course).

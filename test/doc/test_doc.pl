@@ -6,8 +6,10 @@
 %   - A block ```prolog whose first line is `% name.pl` is a file. Agent
 %     programs and payloads must be without problems. Other ```prolog blocks
 %     must be clauses.
+
 %   - A block ```text whose first line is `% name.pl` is a file, too, and may
 %     be wrong; so is ```python with `# name.py`.
+
 %   - A block ```prolog-session is typed at the top level in a terminal, one
 %     for each document, in a directory that holds its files. Ports, marks of
 %     agents, numbers of variables and long floats are not compared, nor are
@@ -336,14 +338,6 @@ asked_for(Word) :-
     member(Word, [ license, backup, upgrade, uninstall, windows, macos,
                    broadcast, contribute, bug ]).
 
-section_about(Word, Files) :-
-    project_file('doc/*.md', Pattern),
-    expand_file_name(Pattern, All),
-    findall(File, ( member(File, All),
-                    read_file_to_string(File, Text, [encoding(utf8)]),
-                    split_string(Text, "\n", "", Lines),
-                    about(Lines, Word) ), Files).
-
 %   The word is in a heading, or in the paragraphs below a heading that begins
 %   with its first letters: `Back up a journal`.
 
@@ -366,7 +360,12 @@ about(Lines, Word) :-
 
 test(each_word_that_users_look_for_has_a_section,
      [forall(asked_for(Word)), true(Files = [_|_])]) :-
-    section_about(Word, Files).
+    project_file('doc/*.md', Pattern),
+    expand_file_name(Pattern, All),
+    findall(File, ( member(File, All),
+                    read_file_to_string(File, Text, [encoding(utf8)]),
+                    split_string(Text, "\n", "", Lines),
+                    about(Lines, Word) ), Files).
 test(sessions_answer_as_shown,
      [ condition(missing([python3], [])),
        forall(document_at(File, Terminal)),

@@ -10,23 +10,6 @@
 :- use_module(library(plunit)).
 :- use_module(library(readutil), [read_file_to_string/3]).
 
-%   The script itself fails if the page shows anything outside its network.
-
-made(Names, Sizes, Dir) :-
-    project_file('doc/pictures.pl', Script),
-    run_swipl([Script, '--', Dir, page], [timeout(120)], exit(0), _, _),
-    directory_files(Dir, Entries),
-    findall(Name-Size,
-            ( member(Name, Entries),
-              file_name_extension(_, png, Name),
-              directory_file_path(Dir, Name, File),
-              png_size(File, Size) ),
-            Pairs0),
-    sort(Pairs0, Pairs),
-    findall(Name, member(Name-_, Pairs), Names),
-    findall(Size, member(_-Size, Pairs), Sizes0),
-    sort(Sizes0, Sizes).
-
 png_size(File, Width*Height) :-
     setup_call_cleanup(
         open(File, read, In, [type(binary)]),
@@ -60,8 +43,23 @@ shown(Names) :-
 
 :- begin_tests(pictures).
 
+%   The script itself fails if the page shows anything outside its network.
+
 test(script_makes_the_shown_pictures, Names-Sizes == Shown-[1600*1000]) :-
     shown(Shown),
-    with_tmp_dir(made(Names, Sizes)).
+    with_tmp_dir(Dir,
+        ( project_file('doc/pictures.pl', Script),
+          run_swipl([Script, '--', Dir, page], [timeout(120)], exit(0), _, _),
+          directory_files(Dir, Entries),
+          findall(Name-Size,
+                  ( member(Name, Entries),
+                    file_name_extension(_, png, Name),
+                    directory_file_path(Dir, Name, File),
+                    png_size(File, Size) ),
+                  Pairs0),
+          sort(Pairs0, Pairs),
+          findall(Name, member(Name-_, Pairs), Names),
+          findall(Size, member(_-Size, Pairs), Sizes0),
+          sort(Sizes0, Sizes) )).
 
 :- end_tests(pictures).

@@ -4,6 +4,7 @@
 % solutions without agents, on other networks than those of the document.
 
 :- use_module('../lib/common').
+:- use_module('../lib/networks').
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [foldl/4, maplist/2, maplist/3]).
 :- use_module(library(debug), [assertion/1]).
@@ -21,27 +22,23 @@ program(Name, File) :-
     atom_concat('examples/classics/', Name, Relative),
     project_file(Relative, File).
 
-%   on(+Topology, +Options, :Goal, -Logged): call(Goal, Hosts) in such a
-%   network, without a log file: Logged are the printed entries.
+%   on(+Topology, +Options, -Hosts, :Goal, -Logged): in a network without a log
+%   file: Logged are the printed entries.
 
-on(Topology, Options, Goal, Logged) :-
-    no_leaks(capturing(in_network(Topology, [seed(1)|Options], Goal),
-                       Messages)),
+:- meta_predicate on(+, +, -, 0, -), virtually(+, -, 0, -).
+
+on(Topology, Options, Hosts, Goal, Logged) :-
+    no_leaks(capturing(with_network(Topology, [seed(1)|Options], _, Hosts,
+                                    Goal), Messages)),
     logged(Messages, Logged).
-
-in_network(Topology, Options, Goal) :-
-    setup_call_cleanup(
-        network_start(Topology, Network, Options),
-        ( network_property(Network, hosts(Hosts)),
-          call(Goal, Hosts) ),
-        network_stop(Network)).
 
 logged(Messages, Logged) :-
     findall(What, member(informational-typhon(log(_, _, What)), Messages),
             Logged).
 
-virtually(Topology, Goal, Logged) :-
-    on(Topology, [clock(virtual), hop_time(uniform(1, 3))], Goal, Logged).
+virtually(Topology, Hosts, Goal, Logged) :-
+    on(Topology, [clock(virtual), hop_time(uniform(1, 3))], Hosts, Goal,
+       Logged).
 
 create(Name, Host, Options, Agent) :-
     program(Name, Program),
@@ -68,31 +65,8 @@ gives(Name, Facts, Result, [Host|_]) :-
     create(Name, Host, [facts(Facts)], Agent),
     agent_result(Agent, Result, 10_000).
 
-sum_of(Numbers, Sum, [Home|Hosts]) :-
-    maplist(put_number, Hosts, Numbers),
-    gives(sum, [], Sum, [Home]).
-
 put_number(Host, N) :-
     remote(Host, leave(number(N))).
-
-%   Words defined in one life of the dictionary are found in another.
-
-defined(Hosts) :-
-    Hosts = [Home|Shelves],
-    create(dictionary, Home, [], First),
-    forall(word(Word, Meaning), agent_send(First, define(Word, Meaning))),
-    agent_send(First, define(hop, again)),
-    pass(Home, 100),
-    agent_dispose(First),
-    findall(Word-Meaning,
-            ( member(Host, Shelves),
-              remote(Host, findall(W-M, sense(entry(W, M)), Entries)),
-              member(Word-Meaning, Entries) ),
-            Found),
-    msort(Found, Sorted),
-    assertion(Sorted == [agent-who, hop-again, place-where]),
-    asked(Home, hop, means(hop, again)),
-    asked(Home, cat, unknown(cat)).
 
 word(agent, who).
 word(hop, what).
@@ -144,42 +118,8 @@ shortest([First|Places], Km) :-
 leg(X/Y, X0/Y0-Km0, X/Y-Km) :-
     Km is Km0+sqrt((X-X0)**2+(Y-Y0)**2).
 
-sells(Places, Tour, Hosts) :-
-    maplist(put_town, Hosts, Places),
-    gives(salesman, [], Tour, Hosts).
-
 put_town(Host, Place) :-
     remote(Host, leave(at(Place))).
-
-%   Every host has the news once, with its distance from the source.
-
-floods(Hosts) :-
-    Hosts = [Home|_],
-    run(flood, [news(it)], Hosts),
-    pass(Home, 100),
-    forall(nth1(N, Hosts, Host),
-           ( remote(Host, findall(Hops, sense(hops(it, Hops)), Found)),
-             Distance is (N-1) // 4 + (N-1) mod 4,
-             assertion(Found == [Distance]) )).
-
-grows(Keys, [Root|Hosts]) :-
-    create(tree, Root, [], Tree),
-    forall(member(Key, Keys), agent_send(Tree, insert(Key))),
-    agent_create(clauses([ (:- agent(reader, [])),
-                           (main :-
-                                send(Tree, keys),
-                                receive(Tree-keys(Found)),
-                                log(Found),
-                                send(Tree, member(5)),
-                                receive(Tree-found(5, Host)),
-                                move(Host),
-                                sense(key(5)),
-                                send(Tree, member(99)),
-                                receive(Tree-no(99))) ]),
-                 Reader, [host(Root)]),
-    last(Hosts, Last),
-    agent_move(Reader, Last),
-    ends(Reader).
 
 sorts(Numbers, Hosts) :-
     Hosts = [First|_],
@@ -203,10 +143,6 @@ arrivals(Hosts, Sum) :-
                     host_property(Host, hop_time(in, Stats)),
                     arg(1, Stats, Count) ),
                   Sum).
-
-explores(Hops, Hosts) :-
-    run(explorer, [], Hosts),
-    arrivals(Hosts, Hops).
 
 %   The towns of roads.pl, and the shortest paths between all of them.
 
@@ -252,16 +188,34 @@ test(hello_is_logged_on_each_host, Logged == Expected) :-
     findall(hello_from(Host),
             ( member(N, [2, 3, 4]), format(atom(Host), 'n~d@virtual:0', [N]) ),
             Expected),
-    virtually(mesh(4), run(hello, []), Logged).
+    virtually(mesh(4), Hosts, run(hello, [], Hosts), Logged).
 
 test(sum_is_that_of_the_numbers, Found == Sum) :-
     numlist(11, 16, Numbers0),
     random_permutation(Numbers0, Numbers),
     sum_list(Numbers, Sum),
-    virtually(mesh(7), sum_of(Numbers, Found), _).
+    virtually(mesh(7), [Home|Hosts],
+        ( maplist(put_number, Hosts, Numbers),
+          gives(sum, [], Found, [Home]) ), _).
+
+%   Words defined in one life of the dictionary are found in another.
 
 test(dictionary_keeps_words_on_shelves) :-
-    virtually(mesh(5), defined, _).
+    virtually(mesh(5), [Home|Shelves],
+        ( create(dictionary, Home, [], First),
+          forall(word(Word, Meaning), agent_send(First, define(Word, Meaning))),
+          agent_send(First, define(hop, again)),
+          pass(Home, 100),
+          agent_dispose(First),
+          findall(Word-Meaning,
+                  ( member(Host, Shelves),
+                    remote(Host, findall(W-M, sense(entry(W, M)), Entries)),
+                    member(Word-Meaning, Entries) ),
+                  Found),
+          msort(Found, Sorted),
+          assertion(Sorted == [agent-who, hop-again, place-where]),
+          asked(Home, hop, means(hop, again)),
+          asked(Home, cat, unknown(cat)) ), _).
 
 test(thinker_wins_the_game, nondet) :-
     plays([anna-novice, bert-thinker], [won(o, _)]).
@@ -272,36 +226,66 @@ test(first_of_two_novices_wins, nondet) :-
 test(salesman_finds_the_shortest_tour) :-
     Places = [0/0, 7/1, 3/5, 1/6, 4/2],
     shortest(Places, Km),
-    virtually(mesh(5), sells(Places, tour(Found, Tour)), _),
+    virtually(mesh(5), Hosts,
+        ( maplist(put_town, Hosts, Places),
+          gives(salesman, [], tour(Found, Tour), Hosts) ), _),
     assertion(abs(Found-Km) < 1e-9),
     assertion(length(Tour, 6)).
 
+%   Every host has the news once, with its distance from the source.
+
 test(flood_reaches_each_host_once) :-
-    on(grid(3, 4), [clock(virtual), hop_time(uniform(1, 1))], floods, _).
+    on(grid(3, 4), [clock(virtual), hop_time(uniform(1, 1))], Hosts,
+        ( Hosts = [Home|_],
+          run(flood, [news(it)], Hosts),
+          pass(Home, 100),
+          forall(nth1(N, Hosts, Host),
+                 ( remote(Host, findall(Hops, sense(hops(it, Hops)), Found)),
+                   Distance is (N-1) // 4 + (N-1) mod 4,
+                   assertion(Found == [Distance]) )) ), _).
 
 test(explorer_sees_every_host, Sorted == Hosts) :-
-    virtually(random(12, 0.2), gives(explorer, [], Seen), _),
+    virtually(random(12, 0.2), Hosts1, gives(explorer, [], Seen, Hosts1), _),
     findall(Host, ( between(1, 12, N),
                     format(atom(Host), 'n~d@virtual:0', [N]) ), Hosts0),
     msort(Hosts0, Hosts),
     msort(Seen, Sorted).
 
 test(explorer_makes_two_hops_for_each_host, true(Hops =:= 2*8)) :-
-    virtually(tree(9), explores(Hops), _).
+    virtually(tree(9), Hosts,
+        ( run(explorer, [], Hosts),
+          arrivals(Hosts, Hops) ), _).
 
 test(tree_has_the_keys_in_order, Logged == [Sorted]) :-
     Keys = [8, 4, 12, 2, 5, 10, 14, 1, 15],
     msort(Keys, Sorted),
-    virtually(tree(15), grows(Keys), Logged).
+    virtually(tree(15), [Root|Hosts],
+        ( create(tree, Root, [], Tree),
+          forall(member(Key, Keys), agent_send(Tree, insert(Key))),
+          agent_create(clauses([ (:- agent(reader, [])),
+                                 (main :-
+                                      send(Tree, keys),
+                                      receive(Tree-keys(Found)),
+                                      log(Found),
+                                      send(Tree, member(5)),
+                                      receive(Tree-found(5, Host)),
+                                      move(Host),
+                                      sense(key(5)),
+                                      send(Tree, member(99)),
+                                      receive(Tree-no(99))) ]),
+                       Reader, [host(Root)]),
+          last(Hosts, Last),
+          agent_move(Reader, Last),
+          ends(Reader) ), Logged).
 
 test(sorters_sort) :-
     numlist(1, 9, Numbers0),
     random_permutation(Numbers0, Numbers),
-    virtually(line(9), sorts(Numbers), _).
+    virtually(line(9), Hosts, sorts(Numbers, Hosts), _).
 
 test(sorters_sort_on_sockets) :-
     on(line(4), [processes(2), hosts([concurrency(1)])],
-       sorts([3, 1, 4, 2]), _).
+       Hosts, sorts([3, 1, 4, 2], Hosts), _).
 
 test(pathfinder_finds_all_shortest_paths) :-
     no_leaks(on_the_roads(

@@ -63,15 +63,6 @@ program_in(Relative, Example) :-
     file_base_name(File, Base),
     file_name_extension(Example, pl, Base).
 
-run_example(Example, Lines) :-
-    format(atom(Relative), 'examples/~w.pl', [Example]),
-    project_file(Relative, File),
-    run_swipl([File], [timeout(30)], Status, Out, Err),
-    assertion(Status == exit(0)),
-    assertion(Err == ""),
-    split_string(Out, "\n", "", Lines0),
-    append(Lines, [""], Lines0).
-
 %   Each pattern matches another line.
 
 all_shown([], []).
@@ -91,7 +82,13 @@ file_lines(Example, Count) :-
 :- begin_tests(examples).
 
 test(prints_the_expected_lines, [ forall(shows(Example, Patterns)), nondet ]) :-
-    run_example(Example, Lines),
+    format(atom(Relative), 'examples/~w.pl', [Example]),
+    project_file(Relative, File),
+    run_swipl([File], [timeout(30)], Status, Out, Err),
+    assertion(Status == exit(0)),
+    assertion(Err == ""),
+    split_string(Out, "\n", "", Lines0),
+    append(Lines, [""], Lines0),
     assertion(all_shown(Patterns, Lines)).
 
 test(tested, Examples == Tested) :-

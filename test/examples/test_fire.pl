@@ -5,6 +5,7 @@
 :- use_module('../../examples/applications/fire/building').
 :- use_module('../../examples/applications/fire/scene').
 :- use_module('../lib/common').
+:- use_module('../lib/networks').
 :- use_module('../lib/fixtures').
 :- use_module(library(assoc), [assoc_to_values/2, list_to_assoc/2]).
 :- use_module(library(debug), [assertion/1]).
@@ -90,9 +91,8 @@ state(People, Name) :-
 :- meta_predicate corridor(+, -, 0).
 
 corridor(Facts, Network, Goal) :-
-    setup_call_cleanup(
-        network_start(edges([w-m, m-e]), Network,
-                      [clock(virtual), seed(1), log('/dev/null')]),
+    with_network(edges([w-m, m-e]),
+                 [clock(virtual), seed(1), log('/dev/null')], Network,
         ( project_file('examples/applications/fire/room.pl', Room),
           room(Room, w, [exit|Facts], W),
           room(Room, m, Facts, M),
@@ -101,8 +101,7 @@ corridor(Facts, Network, Goal) :-
           agent_send(M, peers([w-W, e-E])),
           agent_send(E, peers([m-M])),
           network_advance(Network, 10),
-          once(Goal) ),
-        network_stop(Network)).
+          once(Goal) )).
 
 room(Room, Cell, Facts, Agent) :-
     agent_create(Room, Agent,

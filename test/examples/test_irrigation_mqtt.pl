@@ -1,5 +1,6 @@
 :- module(test_irrigation_mqtt, []).
 :- use_module('../lib/common').
+:- use_module('../lib/networks').
 
 :- needs([mqtt]).
 
@@ -36,12 +37,9 @@ test(valve) :-
                 ( client_publishes(Broker, 'field/1/moisture',
                                 [ '-r', '-m', '{"hour":5, "moisture":0.2, \c
                                                "et0":0, "rain":0}' ]),
-                  setup_call_cleanup(
-                      network_start(edges([office-field1]), Network,
-                                    [ clock(36000), seed(1),
-                                      log('/dev/null') ]),
-                      gardening(Broker, Order),
-                      network_stop(Network)) )),
+                  with_network(edges([office-field1]), [ clock(36000), seed(1),
+                                                         log('/dev/null') ], _,
+                      gardening(Broker, Order)) )),
     assertion(abs(Order.mm - 40/0.75) < 0.001).
 
 :- end_tests(irrigation_mqtt).

@@ -7,6 +7,7 @@
 :- use_module('../../examples/applications/solar/scene').
 :- use_module('../../examples/applications/solar/street').
 :- use_module('../lib/common').
+:- use_module('../lib/networks').
 :- use_module('../lib/fixtures').
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(debug), [assertion/1]).
@@ -219,9 +220,7 @@ exchanged(Totals, Number, Kwh) :-
 answers(Name, Left, Messages, Answers) :-
     format(string(Path), 'examples/applications/solar/~w.pl', [Name]),
     project_file(Path, File),
-    setup_call_cleanup(
-        network_start(edges([a-b]), Network,
-                      [clock(virtual), seed(1), log('/dev/null')]),
+    with_network(edges([a-b]), [clock(virtual), seed(1), log('/dev/null')], _,
         ( remote(a, leave(Left)),
           agent_create(File, Agent, [host(a)]),
           agent_create(clauses([ (:- agent(probe, [state([asked/2])])),
@@ -235,8 +234,7 @@ answers(Name, Left, Messages, Answers) :-
                                      receive(To-A, 10),
                                      talk(Ms, To, As)) ]),
                        Probe, [host(b), facts([asked(Agent, Messages)])]),
-          agent_result(Probe, Answers, 100) ),
-        network_stop(Network)).
+          agent_result(Probe, Answers, 100) )).
 
 :- begin_tests(solar_agents).
 

@@ -5,7 +5,7 @@
 
 :- use_module('../lib/common').
 :- use_module('../lib/study_files',
-              [save_lines/3, study_command/4, with_study_file/2]).
+              [save_lines/3, study_command/4, with_study_file/4]).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2]).
@@ -46,13 +46,21 @@ test(letters_in_a_study, forall(locale(Locale))) :-
                       'run(_, _) :- true.',
                       'measure(m, _, 1).',
                       'claim("δ > 0", [], m > 0).' ],
-                    study_made(Locale)).
+                    Dir, File, study_made(Locale, Dir, File)).
 test(letters_in_an_agent_and_its_log) :-
     findall(Log, ( locale(Locale), with_tmp_dir(logged(Locale, Log)) ),
             [Log, Again]),
     assertion(Log == Again).
 test(letters_in_a_program_of_tartarus, forall(locale(Locale))) :-
-    with_tmp_dir(asserted(Locale)).
+    with_tmp_dir(Dir,
+        ( save_lines(Dir, 'letters.pl', ['word(\'Größe\').']),
+          prints(( use_module(library(tartarus)),
+                   assert_file_to_tartarus('letters.pl'),
+                   word(Word),
+                   atom_codes(Word, Codes),
+                   print(Codes) ), Locale, Dir, Out),
+          string_codes("Größe", Codes),
+          term_string(Codes, Out) )).
 
 :- end_tests(letters).
 
@@ -85,12 +93,3 @@ logged(Locale, Log, Dir) :-
     term_string(Codes, Out),
     file(Dir, 'events.pl', Log).
 
-asserted(Locale, Dir) :-
-    save_lines(Dir, 'letters.pl', ['word(\'Größe\').']),
-    prints(( use_module(library(tartarus)),
-             assert_file_to_tartarus('letters.pl'),
-             word(Word),
-             atom_codes(Word, Codes),
-             print(Codes) ), Locale, Dir, Out),
-    string_codes("Größe", Codes),
-    term_string(Codes, Out).

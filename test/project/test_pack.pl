@@ -100,30 +100,24 @@ copied(Home, Root) :-
 :- begin_tests(pack).
 
 test(directory) :-
-    with_tmp_dir(from_directory).
+    with_tmp_dir(Home,
+        ( copied(Home, Root),
+          install('.', [], Home, Root),
+          works(Home) )).
 test(directory_url) :-
-    with_tmp_dir(from_directory_url).
+    with_tmp_dir(Home,
+        ( copied(Home, Root),
+          atom_concat('file://', Root, URL),
+          install(URL, [], Home, Home),
+          works(Home) )).
 test(archive_url) :-
-    with_tmp_dir(from_archive_url).
-
-from_directory(Home) :-
-    copied(Home, Root),
-    install('.', [], Home, Root),
-    works(Home).
-
-from_directory_url(Home) :-
-    copied(Home, Root),
-    atom_concat('file://', Root, URL),
-    install(URL, [], Home, Home),
-    works(Home).
-
-from_archive_url(Home) :-
-    directory_file_path(Home, 'typhon-0.2.0.tgz', Archive),
-    archive(Archive),
-    atom_concat('file://', Archive, URL),
-    install(typhon, [url(URL)], Home, Home),
-    assertion(compiled(Home)),
-    works(Home).
+    with_tmp_dir(Home,
+        ( directory_file_path(Home, 'typhon-0.2.0.tgz', Archive),
+          archive(Archive),
+          atom_concat('file://', Archive, URL),
+          install(typhon, [url(URL)], Home, Home),
+          assertion(compiled(Home)),
+          works(Home) )).
 
 %   Each file of the library has a .qlf file.
 

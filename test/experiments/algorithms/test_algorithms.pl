@@ -1,5 +1,6 @@
 :- module(test_algorithms, []).
 :- use_module('../../lib/common').
+:- use_module('../../lib/networks').
 :- use_module('../../lib/algorithms_bench').
 :- use_module('../../lib/fake_agent').
 :- use_module(library(aggregate)).
@@ -165,22 +166,11 @@ grow_old(Lifetime) :-
                 *            NETWORK           *
                 *******************************/
 
-:- meta_predicate
-    on_network(+, 2),
-    on_network(+, 2, +).
+:- meta_predicate on_network(+, -, -, 0).
 
-on_network(Options, Goal) :-
-    no_leaks(with_tmp_dir(on_network(Options, Goal))).
-
-on_network(Options, Goal, Dir) :-
-    atom_concat(Dir, '/events.pl', Log),
-    setup_call_cleanup(
-        network_start(ring(3), Network,
-                      [clock(20), seed(1), log(Log)|Options]),
-        ( network_property(Network, hosts(Hosts)),
-          call(Goal, Hosts, Log)
-        ),
-        network_stop(Network)).
+on_network(Options, Hosts, Log, Goal) :-
+    with_logged_network(ring(3), [clock(20), seed(1)|Options],
+                        Hosts, Log, Goal, _).
 
 logged(Log, What, Count) :-
     exists_file(Log),
@@ -196,48 +186,45 @@ at_least(Log, What, Least) :-
 %   No printer can be good enough, so no agent ends.
 
 test(algorithm_is_changed_at_run_time) :-
-    on_network([], exchange).
-
-exchange(Hosts, Log) :-
-    learning_start(Hosts, payloads(learning/settings),
-                   [payloads(learning/lottery)],
-                   [ agents(2), seed(1),
-                     settings([good-2, rho_max-2]) ], Agents),
-    wait_until(at_least(Log, executed(_, _, _, _), 4), 30),
-    maplist([Agent]>>has(Agent, plans(_)), Agents),
-    learning_exchange(Agents, lottery, payloads(learning/climb)),
-    maplist([Agent]>>( \+ has(Agent, plans(_)) ), Agents),
-    logged(Log, executed(_, _, _, _), Count),
-    Wanted is Count + 6,
-    wait_until(at_least(Log, executed(_, _, _, _), Wanted), 30),
-    maplist([Agent]>>has(Agent, count(_)), Agents).
+    on_network([], Hosts, Log,
+        ( learning_start(Hosts, payloads(learning/settings),
+                         [payloads(learning/lottery)],
+                         [ agents(2), seed(1),
+                           settings([good-2, rho_max-2]) ], Agents),
+          wait_until(at_least(Log, executed(_, _, _, _), 4), 30),
+          maplist([Agent]>>has(Agent, plans(_)), Agents),
+          learning_exchange(Agents, lottery, payloads(learning/climb)),
+          maplist([Agent]>>( \+ has(Agent, plans(_)) ), Agents),
+          logged(Log, executed(_, _, _, _), Count),
+          Wanted is Count + 6,
+          wait_until(at_least(Log, executed(_, _, _, _), Wanted), 30),
+          maplist([Agent]>>has(Agent, count(_)), Agents) )).
 
 has(Agent, Fact) :-
     agent_property(Agent, facts(Facts)),
     memberchk(Fact, Facts).
 
 test(printers_in_two_processes) :-
-    on_network([processes(2)], together).
-
-together(Hosts, Log) :-
-    learning_start(Hosts, payloads(learning/settings),
-                   [payloads(learning/climb), payloads(learning/genetic)],
-                   [ agents(4), seed(2),
-                     settings([good-0.75, rho_max-2]) ], Agents),
-    forall(member(Agent, Agents), agent_join(Agent, done, 60)),
-    log_events(Log, Events),
-    algorithms_result(Events, Agents, Result),
-    result_number(reached, Result, 100),
-    result_number(clones, Result, 0),
-    result_number(pages, Result, Pages),
-    Pages > 0.
+    on_network([processes(2)], Hosts, Log,
+        ( learning_start(Hosts, payloads(learning/settings),
+                         [payloads(learning/climb), payloads(learning/genetic)],
+                         [ agents(4), seed(2),
+                           settings([good-0.75, rho_max-2]) ], Agents),
+          forall(member(Agent, Agents), agent_join(Agent, done, 60)),
+          log_events(Log, Events),
+          algorithms_result(Events, Agents, Result),
+          result_number(reached, Result, 100),
+          result_number(clones, Result, 0),
+          result_number(pages, Result, Pages),
+          Pages > 0 )).
 
 %   Three hosts have capacity seven each, and agents live for two executions.
+
 %   If all hosts are full no agent can move: with capacity three this happened
 %   before the second death in three of a hundred runs.
 
 test(clones_come_and_go) :-
-    on_network([hosts([capacity(8)])], clones).
+    on_network([hosts([capacity(8)])], Hosts, Log, clones(Hosts, Log)).
 
 clones(Hosts, Log) :-
     learning_start(Hosts, payloads(learning/maze),
@@ -270,7 +257,6 @@ events([ event(1, h, l1, executed(1, 0, 4, unreached)),
          event(9, h, l2, executed(2, 2, 8, reached)),
          event(10, h, l2, executed(3, 2, 12, unreached)),
          event(11, h, l1, converged(2, 7, [a])) ]).
-
 
 :- begin_tests(algorithms_figures).
 

@@ -1,4 +1,4 @@
-:- use_module('../../lib/common', [with_tmp_dir/1]).
+:- use_module('../../lib/common', [with_tmp_dir/1, with_tmp_dir/2]).
 :- use_module('../../lib/project_studies').
 :- use_module(library(lists)).
 :- use_module(library(plunit)).
@@ -198,17 +198,6 @@ replacement_run(Dir) :-
            get_dict(Name, Ms, Value)),
     Ms.catching_up > 0.
 
-sharing_run(Sharing, Measures, Dir) :-
-    small(Small),
-    measures(beyond_sharing, [sharing-Sharing|Small], Dir, Measures).
-
-urgent_run(Dir) :-
-    small(Small),
-    measures(beyond_urgent, [priority-0, deadline-1|Small], Dir, Ms),
-    Ms.done + Ms.missed =:= 2,
-    Ms.missed > 0,
-    Ms.reported =< 2.
-
 %   Every mechanism finds the same robots.
 
 robots(Mechanism, Robots) :-
@@ -235,10 +224,17 @@ test(integrated) :-
 test(replacement) :-
     with_tmp_dir(replacement_run).
 test(sharing, [forall(member(Sharing, [own, shared]))]) :-
-    with_tmp_dir(sharing_run(Sharing, Ms)),
+    with_tmp_dir(Dir,
+        ( small(Small),
+          measures(beyond_sharing, [sharing-Sharing|Small], Dir, Ms) )),
     assertion(Ms.time > 1).
 test(urgent) :-
-    with_tmp_dir(urgent_run).
+    with_tmp_dir(Dir,
+        ( small(Small),
+          measures(beyond_urgent, [priority-0, deadline-1|Small], Dir, Ms),
+          Ms.done + Ms.missed =:= 2,
+          Ms.missed > 0,
+          Ms.reported =< 2 )).
 test(same_robots) :-
     robots(murdoch, Robots),
     robots(anta, Others),

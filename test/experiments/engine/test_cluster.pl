@@ -72,11 +72,6 @@ all_there(Output) :-
                           "conscientious is faster" ]),
            assertion(once(sub_string(Output, _, _, _, Part)))).
 
-parallel_here(Output, Dir) :-
-    commands('parallel < ', Before, Command, After),
-    append(Before, [Command|After], Lines),
-    shell(Dir, Lines, Output).
-
 %   The machine is reached by a port and a key of its own.
 
 parallel_over_ssh(Output, Dir, Ssh) :-
@@ -122,7 +117,10 @@ prolog_there(Dir, Ssh) :-
 :- begin_tests(parallel).
 
 test(on_this_machine) :-
-    with_tmp_dir(parallel_here(Output)),
+    with_tmp_dir(Dir,
+        ( commands('parallel < ', Before, Command, After),
+          append(Before, [Command|After], Lines),
+          shell(Dir, Lines, Output) )),
     all_there(Output).
 test(over_ssh, [condition(test_cluster:starts(with_sshd(prolog_there)))]) :-
     with_sshd(parallel_over_ssh(Output)),

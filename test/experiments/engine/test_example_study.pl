@@ -54,7 +54,13 @@ test(notebook_prints_the_shown_output,
     block(python, '# look.py', Lines),
     atomic_list_concat(Lines, '\n', Script),
     made(Dir, _),
-    pandas_prints(Script, Dir, Text),
+    pandas_python(Python),
+    setup_call_cleanup(
+        process_create(Python, ['-c', Script],
+                       [ cwd(Dir), stdout(pipe(Out)), process(Pid) ]),
+        read_string(Out, _, Text),
+        close(Out)),
+    process_wait(Pid, exit(0)),
     split_string(Text, "", "\n", [Printed]),
     block(text, 'strategy', Below),
     atomic_list_concat(['strategy  conscientious      random'|Below], '\n',
@@ -78,11 +84,3 @@ made(Dir, Output) :-
     study_command(Dir, [Study, '--runs', 10, '--out', out], exit(0), Output),
     assertz(there(Dir, Output)).
 
-pandas_prints(Script, Dir, Text) :-
-    pandas_python(Python),
-    setup_call_cleanup(
-        process_create(Python, ['-c', Script],
-                       [ cwd(Dir), stdout(pipe(Out)), process(Pid) ]),
-        read_string(Out, _, Text),
-        close(Out)),
-    process_wait(Pid, exit(0)).

@@ -50,7 +50,7 @@ file('other.pl', [ 'unrelated.' ]).
 %   changed(File, Line, New, -A, -B): hashes before and after.
 
 changed(File, Old, New, A, B) :-
-    with_tmp_dir(changed(File, Old, New, A, B)).
+    with_tmp_dir(Dir, changed(File, Old, New, A, B, Dir)).
 
 changed(File, Old, New, A, B, Dir) :-
     forall(file(Name, Lines), save_lines(Dir, Name, Lines)),
@@ -116,19 +116,17 @@ test(thesis_counts_its_agents, true(Missing == [])) :-
                                        memberchk(File-_, Times) ) ),
             Missing).
 test(changed_while_it_is_read, Base == 'walker.pl') :-
-    with_tmp_dir(touched(Base)).
+    with_tmp_dir(Dir,
+        ( forall(file(Name, Lines), save_lines(Dir, Name, Lines)),
+          directory_file_path(Dir, 'study.pl', Study),
+          directory_file_path(Dir, 'walker.pl', Walker),
+          sources_hash(Study, _),
+          assertion(\+ sources_changed(Study, _)),
+          set_time_file(Walker, _, [modified(1000)]),
+          findall(File, sources_changed(Study, File), [File]),
+          file_base_name(File, Base) )).
 
 :- end_tests(sources).
-
-touched(Base, Dir) :-
-    forall(file(Name, Lines), save_lines(Dir, Name, Lines)),
-    directory_file_path(Dir, 'study.pl', Study),
-    directory_file_path(Dir, 'walker.pl', Walker),
-    sources_hash(Study, _),
-    assertion(\+ sources_changed(Study, _)),
-    set_time_file(Walker, _, [modified(1000)]),
-    findall(File, sources_changed(Study, File), [File]),
-    file_base_name(File, Base).
 
 computing([ 'study(toy, "A toy").',
             'vary(a, [1, \'x/y\']).',
@@ -136,14 +134,12 @@ computing([ 'study(toy, "A toy").',
             'measure(m, Log, M) :- M = Log.case.a.',
             'measure(n, _, none).' ]).
 
-%   with_runs(:Goal): Goal(Root, Runs)
+:- meta_predicate with_runs(-, -, 0).
 
-:- meta_predicate with_runs(2).
+with_runs(Root, Runs, Goal) :-
+    with_tmp_dir(Dir, runs_in(Dir, Root, Runs, Goal)).
 
-with_runs(Goal) :-
-    with_tmp_dir(with_runs(Goal)).
-
-with_runs(Goal, Dir) :-
+runs_in(Dir, Root, Runs, Goal) :-
     computing(Lines),
     save_lines(Dir, 'study.pl', Lines),
     directory_file_path(Dir, 'study.pl', File),
@@ -152,7 +148,7 @@ with_runs(Goal, Dir) :-
     findall(run(Study, Case, Seed),
             ( member(Case, Cases), member(Seed, [1, 2]) ), Runs),
     directory_file_path(Dir, runs, Root),
-    call(Goal, Root, Runs).
+    call(Goal).
 
 directories(Bases, Root, Runs) :-
     findall(Base,
@@ -212,17 +208,6 @@ failed(Text, Root, [Run|_]) :-
     part_install(Part, Directory, false),
     assertion(\+ exists_directory(Failed)).
 
-made_twice(Root, [Run|_]) :-
-    part(Root, Run, Directory, Part),
-    part_directory(Directory, 18, Other),
-    part_begin(Other),
-    Run = run(Study, Case, Seed),
-    run_make(Study, Case, Seed, Other),
-    part_install(Part, Directory, false),
-    part_install(Other, Directory, false),
-    assertion(run_done(Root, false, Run)),
-    assertion(\+ exists_directory(Other)).
-
 %   Runs of this process, of one that has ended, and of one on another machine,
 %   whose state is unknown here.
 
@@ -265,14 +250,10 @@ log_comes_later(Root, [Run|_]) :-
     assertion(exists_file(Log)),
     assertion(\+ exists_directory(Part)).
 
-facts(Facts, Root, [Run|_]) :-
-    part(Root, Run, _, Part),
-    run_facts(Part, Facts).
-
 :- begin_tests(store).
 
 test(each_run_has_a_directory, Count == 4) :-
-    with_runs(directories(Bases)),
+    with_runs(Root, Runs, directories(Bases, Root, Runs)),
     sort(Bases, Distinct),
     length(Distinct, Count),
     assertion(once(( member(Base, Bases),
@@ -285,23 +266,34 @@ test(name_of_a_run_ends_with_the_hash_of_its_sources) :-
     with_runs(ends_with_hash).
 test(long_names_are_cut, true(Length < 150)) :-
     computing(Lines),
-    with_tmp_dir(long(Lines, Length)).
+    with_tmp_dir(Dir, long(Lines, Length, Dir)).
 test(installed, M-N == 1-none) :-
-    with_runs(installed(Measures)),
+    with_runs(Root, Runs, installed(Measures, Root, Runs)),
     M = Measures.m,
     N = Measures.n.
 test(failed, Text == "it says\nwhy\nso\n") :-
-    with_runs(failed(Text)).
+    with_runs(Root, Runs, failed(Text, Root, Runs)).
 test(two_sessions) :-
-    with_runs(made_twice).
+    with_runs(Root, [Run|_],
+        ( part(Root, Run, Directory, Part),
+          part_directory(Directory, 18, Other),
+          part_begin(Other),
+          Run = run(Study, Case, Seed),
+          run_make(Study, Case, Seed, Other),
+          part_install(Part, Directory, false),
+          part_install(Other, Directory, false),
+          assertion(run_done(Root, false, Run)),
+          assertion(\+ exists_directory(Other)) )).
 test(left_behind, Left == [true, false, true]) :-
-    with_runs(begun(Left)).
+    with_runs(Root, Runs, begun(Left, Root, Runs)).
 test(logs, [forall(member(Left, [true, false]))]) :-
-    with_runs(logs(Left)).
+    with_runs(Root, Runs, logs(Left, Root, Runs)).
 test(log_comes_later) :-
-    with_runs(log_comes_later).
+    with_runs(Root, Runs, log_comes_later(Root, Runs)).
 test(facts_of_a_run) :-
-    with_runs(facts(Facts)),
+    with_runs(Root, [Run|_],
+        ( part(Root, Run, _, Part),
+          run_facts(Part, Facts) )),
     forall(member(Fact, [ seed(1), parameter(a, 1), parameter(b, 3),
                           sources(_), version(prolog, _),
                           version(typhon, _), bits(_), processors(_),

@@ -3,7 +3,7 @@
 % The results of many runs: medians, shares of seeds, tables.
 
 :- use_module('../../lib/common').
-:- use_module('../../lib/study_files', [study_messages/2, with_study/2]).
+:- use_module('../../lib/study_files', [study_messages/2, with_study/3]).
 :- use_module('../../../experiments/engine/cases', [study_cases/3]).
 :- use_module('../../../experiments/engine/cross_check', [cross_check/4]).
 :- use_module('../../../experiments/engine/numbers').
@@ -34,7 +34,7 @@ toy([ 'study(toy, "A toy").',
 
 outcome_of(Values, Outcome) :-
     toy(Lines),
-    with_study(Lines, outcome_of(Values, Outcome)).
+    with_study(Lines, Study, outcome_of(Values, Outcome, Study)).
 
 outcome_of(Values, Outcome, Study) :-
     study_cases(Study, [], Cases),
@@ -72,7 +72,7 @@ ways([ 'study(ways, "Three ways").',
 
 ways_shares(Given, Runs, Shares) :-
     ways(Lines),
-    with_study(Lines, ways_shares(Given, Runs, Shares)).
+    with_study(Lines, Study, ways_shares(Given, Runs, Shares, Study)).
 
 ways_shares(Given, Made, Shares, Study) :-
     study_cases(Study, Given, Cases),

@@ -1,7 +1,7 @@
 :- module(test_replays, []).
 :- use_module('../../lib/common').
 :- use_module('../../lib/study_files',
-              [save_lines/3, study_command/4, with_study_file/2]).
+              [save_lines/3, study_command/4, with_study_file/4]).
 :- use_module(library(plunit)).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
@@ -27,19 +27,17 @@ agent([ ':- agent(strider, []).',
         'walk(N) :- next_host(random, Host), move(Host), log(step(N)),',
         '    N1 is N-1, walk(N1).' ]).
 
-with_replay(Options, Goal) :-
+with_replay(Options, Out, Goal) :-
     study(Lines),
-    with_study_file(Lines, replayed(Options, Goal)).
+    agent(Agent),
+    with_study_file(Lines, Dir, File,
+        ( save_lines(Dir, 'strider.pl', Agent),
+          study_command(Dir, [File, '--runs', 1, '--out', out|Options],
+                        exit(0), _),
+          directory_file_path(Dir, out, Out),
+          Goal )).
 
-replayed(Options, Goal, Dir, File) :-
-    agent(Lines),
-    save_lines(Dir, 'strider.pl', Lines),
-    study_command(Dir, [File, '--runs', 1, '--out', out|Options], exit(0),
-                  _),
-    directory_file_path(Dir, out, Out),
-    call(Goal, Out).
-
-:- meta_predicate with_replay(+, 1).
+:- meta_predicate with_replay(+, -, 0).
 
 text(Out, Name, Text) :-
     directory_file_path(Out, Name, File),
@@ -52,28 +50,23 @@ tools_there :-
 :- begin_tests(replays, [condition(tools_there)]).
 
 test(linked_and_complete) :-
-    with_replay(['--replays'], linked).
-
-linked(Out) :-
-    text(Out, 'index.html', Page),
-    lacks(Page, ["walks/replay.html"], Unlinked),
-    assertion(Unlinked == []),
-    text(Out, 'walks/replay.html', Replay),
-    lacks(Replay, ["\"left\"", "\"link\"", "step(7)", "\"steps\"",
-                   "<title>Walks &lt;b&gt;</title>"], Missing),
-    assertion(Missing == []),
-    aggregate_all(count, sub_string(Replay, _, _, _, "[7 ]"), Sevens),
-    assertion(Sevens == 1),             % declared once
-    directory_file_path(Out, 'walks/replay.log', Log),
-    assertion(\+ exists_file(Log)).
-
+    with_replay(['--replays'], Out,
+        ( text(Out, 'index.html', Page),
+          lacks(Page, ["walks/replay.html"], Unlinked),
+          assertion(Unlinked == []),
+          text(Out, 'walks/replay.html', Replay),
+          lacks(Replay, ["\"left\"", "\"link\"", "step(7)", "\"steps\"",
+                         "<title>Walks &lt;b&gt;</title>"], Missing),
+          assertion(Missing == []),
+          aggregate_all(count, sub_string(Replay, _, _, _, "[7 ]"), Sevens),
+          assertion(Sevens == 1),             % declared once
+          directory_file_path(Out, 'walks/replay.log', Log),
+          assertion(\+ exists_file(Log)) )).
 test(replays_are_made_on_request_only) :-
-    with_replay([], not_linked).
-
-not_linked(Out) :-
-    text(Out, 'index.html', Page),
-    lacks(Page, ["replay.html"], Missing),
-    assertion(Missing == ["replay.html"]).
+    with_replay([], Out,
+        ( text(Out, 'index.html', Page),
+          lacks(Page, ["replay.html"], Missing),
+          assertion(Missing == ["replay.html"]) )).
 
 lacks(Text, Parts, Missing) :-
     findall(Part, ( member(Part, Parts), \+ sub_string(Text, _, _, _, Part) ),

@@ -5,7 +5,7 @@
 
 :- use_module('../../lib/common').
 :- use_module('../../lib/study_files',
-              [pandas_python/1, study_command/4, with_study/2]).
+              [pandas_python/1, study_command/4, with_study/3]).
 :- use_module('../../../experiments/engine/cases').
 :- use_module('../../../experiments/engine/evidence').
 :- use_module('../../../experiments/engine/sampling').
@@ -91,14 +91,10 @@ sampled([ 'study(toy, "A toy").',
 
 sampled_cases(Given, Cases) :-
     sampled(Lines),
-    with_study(Lines, cases_of(Given, Cases)).
+    with_study(Lines, Study, cases_of(Given, Cases, Study)).
 
 cases_of(Given, Cases, Study) :-
     study_cases(Study, Given, Cases).
-
-varied_of(Names, Study) :-
-    study_cases(Study, [], Cases),
-    varied(Study, Cases, Names).
 
 :- begin_tests(sampled_studies).
 
@@ -119,14 +115,16 @@ test(unknown_design, error(domain_error(study_design, many))) :-
     sampled_cases([design-many], _).
 test(sampled_parameters_vary, Names == [kind, rate, size]) :-
     sampled(Lines),
-    with_study(Lines, varied_of(Names)).
+    with_study(Lines, Study,
+        ( study_cases(Study, [], Cases),
+          varied(Study, Cases, Names) )).
 test(wrong_ranges_and_designs_are_errors,
      [ forall(member(Line, [ 'sample(b, uniform(2, 1)).',
                              'design(hypercube(5)).' ])),
        error(study(_, [_|_])) ]) :-
     sampled(Lines0),
     append(Lines0, [Line], Lines),
-    with_study(Lines, cases_of([], _)).
+    with_study(Lines, Study, cases_of([], _, Study)).
 test(example_study_has_forty_cases, Count == 40) :-
     project_file('examples/studies/search.pl', File),
     study_load(File, Study),

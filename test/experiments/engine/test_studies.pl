@@ -5,7 +5,7 @@
 :- use_module('../../lib/common').
 :- use_module('../../lib/study_files',
               [ study_command/4, study_messages/2, with_study/2,
-                with_study_file/2 ]).
+                with_study_file/2, with_study_file/4 ]).
 :- use_module('../../../experiments/engine/catalogue').
 :- use_module('../../../experiments/engine/studies').
 :- use_module(library(apply), [maplist/3]).
@@ -18,11 +18,6 @@
 
 base([ 'study(toy, "A toy").', 'vary(a, [1, 2]).',
        'measure(m, _, 1).' ]).
-
-with_base(More, Goal) :-
-    base(Base),
-    append(Base, More, Lines),
-    with_study(Lines, Goal).
 
 loads(_).
 
@@ -47,7 +42,9 @@ has(Text, Parts) :-
 :- begin_tests(studies).
 
 test(title, Title == toy-"A toy") :-
-    with_base([], title(Title)).
+    base(Base),
+    append(Base, [], Lines),
+    with_study(Lines, title(Title)).
 test(no_study, Problems == [missing(study/2), missing(measure/3)]) :-
     problems(['a.'], Problems).
 test(arity, Problems == [arity(claim/2, claim/3)]) :-
@@ -89,19 +86,14 @@ test(all_errors_are_reported) :-
     with_study_file([ 'study(toy, "A toy").', 'vary(b, 1).',
                       'measure(m, _, 1).', 'plot(p, bars([])).',
                       'claim("small", [], n < 1).',
-                      'claim("large", [], big(m)).', 'a b.' ], errors_of(Text)),
+                      'claim("large", [], big(m)).', 'a b.' ], Dir, File,
+        study_command(Dir, [File], exit(1), Text)),
     has(Text, [ "study.pl is not a valid study", "it has errors",
                 "vary(b, Values)", "it defines plot/2; studies have plot/3",
                 "claim(\"small\"): n is neither a measure nor a parameter",
                 "claim(\"large\"): big(m) is not a test" ]).
 
 :- end_tests(studies).
-
-errors_of(Text, Dir, File) :-
-    study_command(Dir, [File], exit(1), Text).
-
-mistyped(Text, Dir, _) :-
-    study_command(Dir, ['stdy.pl'], exit(1), Text).
 
 named(Names, Bases) :-
     studies_named(Names, Files),
@@ -207,7 +199,7 @@ test(help_of_a_study, forall(member(Args, [ ['--help'],
     prints(Args, exit(0), Text),
     has(Text, ["toy: A toy", "  a          [1,2]      varied", "assumed: so"]).
 test(list_of_studies) :-
-    with_tmp_dir(what_there_is(Text)),
+    with_tmp_dir(Dir, study_command(Dir, [], exit(0), Text)),
     has(Text, ["  5.6            Idle time and overlaps"]).
 test(table_and_claims) :-
     prints(['--runs', 2, '--out', out], exit(0), Text),
@@ -255,7 +247,8 @@ test(no_such_study) :-
     with_tmp_dir(no_such_study(Text)),
     has(Text, ["There is no study 99.9"]).
 test(mistyped_study) :-
-    with_study_file(['study(a, b).'], mistyped(Text)),
+    with_study_file(['study(a, b).'], Dir, _,
+        study_command(Dir, ['stdy.pl'], exit(1), Text)),
     has(Text, ["There is no study stdy.pl (did you mean study.pl?)"]).
 test(set_without_a_value) :-
     prints(['--set', 'a='], exit(1), Text),
@@ -282,9 +275,6 @@ again(Dir, File) :-
 
 help(Text, Dir) :-
     study_command(Dir, ['--help'], exit(0), Text).
-
-what_there_is(Text, Dir) :-
-    study_command(Dir, [], exit(0), Text).
 
 no_such_study(Text, Dir) :-
     study_command(Dir, ['99.9'], exit(1), Text).

@@ -5,7 +5,7 @@
 :- use_module('../../lib/common').
 :- use_module('../../lib/study_files',
               [save_lines/3, study_command/4, with_study/2,
-               with_study_file/2]).
+               with_study_file/4]).
 :- use_module('../../../experiments/engine/cases').
 :- use_module('../../../experiments/engine/studies', [study_load/2]).
 :- use_module(library(apply), [maplist/3]).
@@ -103,23 +103,17 @@ test(parameter_missing_in_a_case, error(existence_error(key, aa, _))) :-
 test(missing_parameter_is_reported) :-
     dict_pairs(Case, case, [delta-1, hosts-2]),
     catch(_ = Case.dleta, Error, true),
-    message_to_codes(Error, Text),
+    phrase('$messages':translate_message(Error), Lines),
+    with_output_to(string(Text),
+                   print_message_lines(current_output, '', Lines)),
     assertion(once(sub_string(Text, _, _, _,
                               "no parameter dleta (did you mean delta?)"))).
 test(unknown_parameter_is_reported, Status-true == exit(1)-true) :-
     base(Base),
-    with_study_file(Base, command_output(Status, Text)),
+    with_study_file(Base, Dir, File,
+        study_command(Dir, [File, '--set', 'd=1'], Status, Text)),
     once(sub_string(Text, _, _, _,
                     "study.pl has no parameter d; it has a, b, c")).
-
-message_to_codes(Error, Text) :-
-    phrase('$messages':translate_message(Error), Lines),
-    with_output_to(string(Text),
-                   print_message_lines(current_output, '', Lines)).
-
-command_output(Status, Text, Dir, File) :-
-    study_command(Dir, [File, '--set', 'd=1'], Status, Text).
-
 test(engine_adds_clock_and_processes,
      Rows == [[virtual, 1]]) :-
     cases([ 'network(_, ring(2), []).' ], [a-1, b-x], [clock, processes],

@@ -4,7 +4,7 @@
 
 :- use_module('../../lib/common').
 :- use_module('../../lib/study_files',
-              [save_lines/3, study_messages/2, with_study_file/2]).
+              [save_lines/3, study_messages/2, with_study_file/4]).
 :- use_module('../../../experiments/engine/cases', [study_cases/3]).
 :- use_module('../../../experiments/engine/gnuplot', [plain_text/2]).
 :- use_module('../../../experiments/engine/outcome', [outcome/4]).
@@ -77,15 +77,12 @@ runs(Study, Dir, Cases, Runs) :-
               M is 10*Case.n + Seed + More ),
             Runs).
 
-:- meta_predicate with_pictures(2).
+:- meta_predicate with_pictures(-, -, 0).
 
-with_pictures(Goal) :-
+with_pictures(Out, Told, Goal) :-
     study(Lines),
-    with_study_file(Lines, drawn(Goal)).
-
-drawn(Goal, Dir, File) :-
-    pictures(Dir, File, Out, Text),
-    call(Goal, Out, Text).
+    with_study_file(Lines, Dir, File,
+                    ( pictures(Dir, File, Out, Told), Goal )).
 
 text(Out, Name, Text) :-
     directory_file_path(Out, Name, File),
@@ -107,10 +104,6 @@ is_drawn(Name, Out, _) :-
              directory_file_path(Out, Base, File),
              wait_until(( exists_file(File), size_file(File, Size),
                           Size > 0 ), 30) )).
-
-copied(Out, _) :-
-    text(Out, 'four.svg', Text),
-    assertion(Text == "<svg/>\n").
 
 %   The positions of texts and marks, from the top, and the height.
 
@@ -134,76 +127,81 @@ between_texts(Text, Before, After, Between) :-
 gnuplot :-
     absolute_file_name(path(gnuplot), _, [access(execute), file_errors(fail)]).
 
-%   The case n=2, kind=new_one has no run, the other new ones have one of three.
-
-gap(Text, Dir, File) :-
-    study_load(File, Study),
-    runs(Study, Dir, _, Runs0),
-    findall(run(Case, Seed, Ms),
-            ( member(run(Case, Seed, Ms0), Runs0),
-              (   Case.kind == new_one,
-                  ( Case.n == 2 ; Seed > 1 )
-              ->  Ms = measures{}
-              ;   Ms = Ms0
-              ) ),
-            Runs),
-    once(study_call(Study, plot(one, Title, Picture))),
-    picture(Study, plot(one, Title, Picture), Runs, Dir),
-    has('one.gnuplot', ["0 to 3 runs of each"], Dir, _),
-    text(Dir, 'one.dat', Text).
-
 :- begin_tests(study_pictures).
 
 test(medians, Text == "1 12 11 13\n2 22 21 23\n10 102 101 103\n\n\n\c
 1 112 111 113\n2 122 121 123\n10 202 201 203\n\n\n") :-
-    with_pictures(data('one.dat', Text)).
+    with_pictures(Out, Told, data('one.dat', Text, Out, Told)).
 test(runs, nondet) :-
-    with_pictures(data('one-runs.dat', Text)),
+    with_pictures(Out, Told, data('one-runs.dat', Text, Out, Told)),
     sub_string(Text, 0, _, _, "1 11\n1 12\n1 13\n2 21\n").
+
+%   The case n=2, kind=new_one has no run, the other new ones have one of three.
+
 test(lines_are_not_joined_across_a_case_without_runs,
      Text == "1 11 11 11\n2 NaN NaN NaN\n10 101 101 101\n\n\n\c
 1 112 111 113\n2 122 121 123\n10 202 201 203\n\n\n") :-
     study(Lines),
-    with_study_file(Lines, gap(Text)).
+    with_study_file(Lines, Dir, File,
+        ( study_load(File, Study),
+          runs(Study, Dir, _, Runs0),
+          findall(run(Case, Seed, Ms),
+                  ( member(run(Case, Seed, Ms0), Runs0),
+                    (   Case.kind == new_one,
+                        ( Case.n == 2 ; Seed > 1 )
+                    ->  Ms = measures{}
+                    ;   Ms = Ms0
+                    ) ),
+                  Runs),
+          once(study_call(Study, plot(one, Title, Picture))),
+          picture(Study, plot(one, Title, Picture), Runs, Dir),
+          has('one.gnuplot', ["0 to 3 runs of each"], Dir, _),
+          text(Dir, 'one.dat', Text) )).
 test(printed, Text == "NaN NaN NaN NaN\n\n\n10 12\n\n\n") :-
-    with_pictures(data('one-printed.dat', Text)).
+    with_pictures(Out, Told, data('one-printed.dat', Text, Out, Told)).
 test(variables) :-
-    with_pictures(has('one.gnuplot',
+    with_pictures(Out, Told, has('one.gnuplot',
         [ "TITLE = \"One \\\"picture\\\"\"", "panels = 1", "series = 2",
           "PRINTED = 1", "Log[1] = [1]", "Rules[1] = [\"5\"]",
           "Panel[1] = [\"What <is> measured\"]",
           "Series[2] = [\"new one\", \"Old ones\"]",
           "of\\\\_toys; 3 runs of each: medians, least and greatest\"",
-          "load \"lines.gp\"" ])).
+          "load \"lines.gp\"" ], Out, Told)).
 test(texts_are_placed_side_by_side,
      Text == "1 17 11 23\n2 117 111 123\n\n\n") :-
-    with_pictures(data('two.dat', Text)).
+    with_pictures(Out, Told, data('two.dat', Text, Out, Told)).
 test(names_of_values_are_texts) :-
-    with_pictures(has('two.gnuplot',
-                      ["XTICS = \"'new one' 1,'Old ones' 2\""])).
+    with_pictures(Out, Told, has('two.gnuplot',
+                      ["XTICS = \"'new one' 1,'Old ones' 2\""], Out, Told)).
 test(texts_are_drawn_verbatim, Plain == 'a\\_b\\^2\\{\\\\') :-
     plain_text("a_b^2{\\", Plain).
 test(caption_names_the_aggregation) :-
-    with_pictures(has('two.gnuplot', ["least and greatest; over all n\""])).
+    with_pictures(Out, Told, has('two.gnuplot',
+                                 ["least and greatest; over all n\""],
+                                 Out, Told)).
 test(own_script, Text == "\"a b\" 1.5\nx 6\n\n\"c d\" 3\n") :-
-    with_pictures(data('own.dat', Text)).
+    with_pictures(Out, Told, data('own.dat', Text, Out, Told)).
 test(own_variables) :-
-    with_pictures(has('three.gnuplot',
+    with_pictures(Out, Told, has('three.gnuplot',
         [ "NAME = \"three\"", "HEIGHT = 200", "X = 1",
-          "array Names[2] = [\"a\", \"b\\\"c\"]", "load \"own.gp\"" ])).
+          "array Names[2] = [\"a\", \"b\\\"c\"]", "load \"own.gp\"" ],
+          Out, Told)).
 test(pictures_of_a_run_are_copied) :-
-    with_pictures(copied).
+    with_pictures(Out, _,
+        ( text(Out, 'four.svg', Text),
+          assertion(Text == "<svg/>\n") )).
 test(impossible_plot_is_reported) :-
-    with_pictures(said(Text)),
+    with_pictures(Out, Told, said(Text, Out, Told)),
     forall(member(Part, [ "Picture none is not drawn: there are no data",
                           "Picture wrong is not drawn:", "missing/2" ]),
            assertion(once(sub_string(Text, _, _, _, Part)))).
 test(drawn, [condition(gnuplot), forall(member(Name, [one, two, three]))]) :-
-    with_pictures(is_drawn(Name)).
+    with_pictures(Out, Told, is_drawn(Name, Out, Told)).
 test(texts_are_inside_the_picture, [condition(gnuplot)]) :-
-    with_pictures(inside('two.svg')).
+    with_pictures(Out, Told, inside('two.svg', Out, Told)).
 test(without_gnuplot) :-
-    with_study_file(['study(toy, "A toy").'], without_gnuplot(Text)),
+    with_study_file(['study(toy, "A toy").'], Dir, File,
+                    without_gnuplot(Text, Dir, File)),
     assertion(once(sub_string(Text, _, _, _, "apt-get install gnuplot"))).
 
 :- end_tests(study_pictures).
@@ -213,7 +211,7 @@ without_gnuplot(Text, Dir, _) :-
     setup_call_cleanup(
         setenv('PATH', Dir),
         ( study(Lines),
-          with_study_file(Lines, no_gnuplot(Text)) ),
+          with_study_file(Lines, Dir1, File, no_gnuplot(Text, Dir1, File)) ),
         setenv('PATH', Path)).
 
 no_gnuplot(Text, Dir, File) :-
@@ -225,13 +223,13 @@ no_gnuplot(Text, Dir, File) :-
                 *             PAGE             *
                 *******************************/
 
-:- meta_predicate with_page(2).
+:- meta_predicate with_page(-, -, 0).
 
-with_page(Goal) :-
+with_page(Dir, DOM, Goal) :-
     study(Lines),
-    with_study_file(Lines, page(Goal)).
+    with_study_file(Lines, Dir, File, ( page(Dir, File, DOM), Goal )).
 
-page(Goal, Dir, File) :-
+page(Dir, File, DOM) :-
     study_load(File, Study),
     runs(Study, Dir, Cases, Runs),
     findall(Seed, member(run(_, Seed, _), Runs), Seeds0),
@@ -247,18 +245,7 @@ page(Goal, Dir, File) :-
     page_save(Dir, [shown(Study, Outcome, 'swipl a -- b', Dir)]),
     directory_file_path(Dir, 'index.html', Index),
     study_messages(load_html(Index, DOM, [dialect(html5)]), Complaints),
-    assertion(Complaints == ""),
-    call(Goal, Dir, DOM).
-
-links(Missing, Dir, DOM) :-
-    findall(File,
-            ( member(Path, [a(@href), img(@src)]),
-              xpath(DOM, //Path, Link),
-              \+ sub_atom(Link, 0, _, _, #),
-              uri_encoded(path, File0, Link),
-              directory_file_path(Dir, File0, File),
-              \+ exists_file(File) ),
-            Missing).
+    assertion(Complaints == "").
 
 links_inside(Missing, _, DOM) :-
     findall(Link,
@@ -272,16 +259,21 @@ cells(Rows, _, DOM) :-
     findall(Row, ( xpath(DOM, //tr, Tr),
                    findall(Text, xpath(Tr, td(text), Text), Row) ), Rows).
 
-words(Text, _, DOM) :-
-    findall(T, xpath(DOM, //(*(text)), T), [Text|_]).
-
 :- begin_tests(study_page).
 
 test(links_resolve, Missing-Inside == []-[]) :-
-    with_page(links(Missing)),
-    with_page(links_inside(Inside)).
+    with_page(Dir, DOM,
+        ( findall(File,
+                  ( member(Path, [a(@href), img(@src)]),
+                    xpath(DOM, //Path, Link),
+                    \+ sub_atom(Link, 0, _, _, #),
+                    uri_encoded(path, File0, Link),
+                    directory_file_path(Dir, File0, File),
+                    \+ exists_file(File) ),
+                  Missing) )),
+    with_page(Dir1, DOM1, links_inside(Inside, Dir1, DOM1)).
 test(tables) :-
-    with_page(cells(Rows)),
+    with_page(Dir, DOM, cells(Rows, Dir, DOM)),
     forall(member(Row, [ ['toy 1', 'A <toy>', '', '0 of 1, 1 not known'],
                          [c, '[5]', 'given by --set'],
                          ['10', old, '3', '202 (201–203) [12]'],
@@ -292,7 +284,7 @@ test(tables) :-
            assertion(memberchk(Row, Rows))),
     assertion(\+ memberchk(['measure l'|_], Rows)).
 test(page_shows_how_to_repeat_the_study) :-
-    with_page(words(Text)),
+    with_page(_, DOM, findall(T, xpath(DOM, //(*(text)), T), [Text|_])),
     forall(member(Part, [ 'swipl a -- b', 'What it is & does.',
                           'not drawn' ]),
            assertion(once(sub_atom(Text, _, _, _, Part)))).

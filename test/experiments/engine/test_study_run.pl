@@ -4,7 +4,7 @@
 
 :- use_module('../../lib/common').
 :- use_module('../../lib/study_files',
-              [save_lines/3, study_command/4, with_study_file/2]).
+              [save_lines/3, study_command/4, with_study_file/4]).
 :- use_module('../../../experiments/engine/cases', [study_cases/3]).
 :- use_module('../../../experiments/engine/run').
 :- use_module('../../../experiments/engine/studies', [study_load/2]).
@@ -52,16 +52,13 @@ study([ 'study(toy, "A toy").',
         'progress(_, step(_, _), 60).'
       ]).
 
-:- meta_predicate with_walkers(2).
+:- meta_predicate with_walkers(-, -, 0).
 
-with_walkers(Goal) :-
+with_walkers(Dir, File, Goal) :-
     study(Lines),
-    with_study_file(Lines, with_agent(Goal)).
-
-with_agent(Goal, Dir, File) :-
     agent(Agent),
-    save_lines(Dir, 'walker.pl', Agent),
-    call(Goal, Dir, File).
+    with_study_file(Lines, Dir, File,
+                    ( save_lines(Dir, 'walker.pl', Agent), Goal )).
 
 %   made(+Dir, +File, +N, +Seed, -Log, -Result): the run of case N, in a
 %   directory of its own.
@@ -81,35 +78,12 @@ text(Run, Name, Text) :-
     directory_file_path(Run, Name, File),
     read_file_to_string(File, Text, [encoding(utf8)]).
 
-same_again(Dir, File) :-
-    made(Dir, File, 1, 7, Log, Result),
-    made(Dir, File, 2, 8, _, _),
-    made(Dir, File, 1, 7, Again, ResultAgain),
-    assertion(Log == Again),
-    maplist(drawn, [Result, ResultAgain], [Drawn, DrawnAgain]),
-    assertion(Drawn == DrawnAgain),
-    made(Dir, File, 1, 8, Other, _),
-    assertion(Log \== Other).
-
 drawn(Result, Drawn) :-
     setup_call_cleanup(
         open_string(Result, In),
         ( repeat, read(In, measure(drawn, Drawn)) ),
         close(In)),
     !.
-
-%   In workers, one of which makes all runs, and in a session by itself.
-
-same_elsewhere(Dir, File) :-
-    made(Dir, File, 2, 2, Log, _),
-    study_command(Dir, [ File, '--runs', 2, '--jobs', 1, '--logs',
-                         '--out', all ], exit(0), _),
-    kept(Dir, all, 'hosts=6,seed=2', InWorker),
-    assertion(Log == InWorker),
-    study_command(Dir, [ File, '--case', 2, '--seed', 2, '--logs',
-                         '--out', one ], exit(0), _),
-    kept(Dir, one, 'hosts=6,seed=2', ByItself),
-    assertion(Log == ByItself).
 
 kept(Dir, Out, Start, Text) :-
     directory_file_path(Dir, Out, Below),
@@ -120,33 +94,11 @@ kept(Dir, Out, Start, Text) :-
     !,
     text(Run, 'events.pl', Text).
 
-%   There are two runs in virtual time and one in real time.
-
-on_sockets(Row, Dir, File) :-
-    study_command(Dir, [File, '--runs', 2, '--out', out], exit(0), _),
-    runs_made(Dir, Virtual),
-    study_command(Dir, [ File, '--runs', 2, '--out', out, '--real',
-                         '--real-runs', 1 ], exit(0),
-                  Text),
-    runs_made(Dir, All),
-    assertion(All =:= Virtual+1),
-    sub_string(Text, _, _, _, "on sockets  verdict"),
-    split_string(Text, "\n", "", Lines),
-    member(Line, Lines),
-    split_string(Line, " ", " ", Words0),
-    subtract(Words0, [""], Words),
-    Words = ["hosts"|Row],
-    last(Row, "inside").
-
 runs_made(Dir, Count) :-
     directory_file_path(Dir, out, Out),
     aggregate_all(count, directory_member(Out, _, [ recursive(true),
                                                     matches('result.pl') ]),
                   Count).
-
-watched(Text, Dir, File) :-
-    study_command(Dir, [ File, '--runs', 1, '--set', 'hosts=5',
-                         '--set', 'clock=50' ], exit(0), Text).
 
 what_was_measured(Dir, File) :-
     made(Dir, File, 1, 1, _, Result),
@@ -165,30 +117,70 @@ computes(Result, Dir, File) :-
     directory_file_path(Dir, 'events.pl', Events),
     assertion(\+ exists_file(Events)).
 
-:- meta_predicate with_lines(+, 2).
+:- meta_predicate with_lines(+, -, -, 0).
 
-with_lines(Lines, Goal) :-
-    with_study_file(['study(other, "Other").'|Lines], Goal).
+with_lines(Lines, Dir, File, Goal) :-
+    with_study_file(['study(other, "Other").'|Lines], Dir, File, Goal).
 
 :- begin_tests(study_run).
 
 test(same_seed_same_run) :-
-    with_walkers(same_again).
+    with_walkers(Dir, File,
+        ( made(Dir, File, 1, 7, Log, Result),
+          made(Dir, File, 2, 8, _, _),
+          made(Dir, File, 1, 7, Again, ResultAgain),
+          assertion(Log == Again),
+          maplist(drawn, [Result, ResultAgain], [Drawn, DrawnAgain]),
+          assertion(Drawn == DrawnAgain),
+          made(Dir, File, 1, 8, Other, _),
+          assertion(Log \== Other) )).
+
+%   In workers, one of which makes all runs, and in a session by itself.
+
 test(in_a_worker_and_elsewhere) :-
-    with_walkers(same_elsewhere).
+    with_walkers(Dir, File,
+        ( made(Dir, File, 2, 2, Log, _),
+          study_command(Dir, [ File, '--runs', 2, '--jobs', 1, '--logs',
+                               '--out', all ], exit(0), _),
+          kept(Dir, all, 'hosts=6,seed=2', InWorker),
+          assertion(Log == InWorker),
+          study_command(Dir, [ File, '--case', 2, '--seed', 2, '--logs',
+                               '--out', one ], exit(0), _),
+          kept(Dir, one, 'hosts=6,seed=2', ByItself),
+          assertion(Log == ByItself) )).
+
+%   There are two runs in virtual time and one in real time.
+
 test(one_case_on_sockets, [nondet, Row == ["5", "5", "inside"]]) :-
-    with_walkers(on_sockets(Row)).
+    with_walkers(Dir, File,
+        ( study_command(Dir, [File, '--runs', 2, '--out', out], exit(0), _),
+          runs_made(Dir, Virtual),
+          study_command(Dir, [ File, '--runs', 2, '--out', out, '--real',
+                               '--real-runs', 1 ], exit(0),
+                        Text),
+          runs_made(Dir, All),
+          assertion(All =:= Virtual+1),
+          sub_string(Text, _, _, _, "on sockets  verdict"),
+          split_string(Text, "\n", "", Lines),
+          member(Line, Lines),
+          split_string(Line, " ", " ", Words0),
+          subtract(Words0, [""], Words),
+          Words = ["hosts"|Row],
+          last(Row, "inside") )).
 test(watched_in_real_time, nondet) :-
-    with_walkers(watched(Text)),
+    with_walkers(Dir, File,
+        ( study_command(Dir, [ File, '--runs', 1, '--set', 'hosts=5',
+                               '--set', 'clock=50' ], exit(0), Text) )),
     sub_string(Text, _, _, _, "/60 events").
 test(measured_values) :-
-    with_walkers(what_was_measured).
+    with_walkers(Dir, File, what_was_measured(Dir, File)).
 test(no_resources_are_left) :-
-    no_leaks(with_walkers(what_was_measured)).
+    no_leaks(with_walkers(Dir, File, what_was_measured(Dir, File))).
 test(run_fails, error(study_goal_failed(run/2))) :-
-    with_walkers(run_that_fails).
+    with_walkers(Dir, File, run_that_fails(Dir, File)).
 test(network_stops_when_the_run_fails) :-
-    no_leaks(catch(with_walkers(run_that_fails), error(_, _), true)).
+    no_leaks(catch(with_walkers(Dir, File, run_that_fails(Dir, File)),
+                   error(_, _), true)).
 
 test(lost_process, error(study_processes_ended([_]))) :-
     no_leaks(with_lines([ 'fixed(clock, 50, assumed("so")).',
@@ -202,46 +194,50 @@ test(lost_process, error(study_processes_ended([_]))) :-
                           '    typhon:network_property(Network, processes(Left)),',
                           '    Left \\== Pids, !.',
                           'measure(m, _, 1).' ],
-                        computes(_))).
+                        Dir, File, computes(_, Dir, File))).
 
 test(computes, nondet) :-
     with_lines([ 'measure(m, Log, M) :- M is 2*Log.case.seed.',
                  'measure(n, Log, M) :- M = Log.case.directory, fail.',
-                 'measure(l, _, [a, "b", 1.5]).' ], computes(Result)),
+                 'measure(l, _, [a, "b", 1.5]).' ], Dir, File,
+               computes(Result, Dir, File)),
     sub_string(Result, _, _, _, "measure(m,10)"),
     sub_string(Result, _, _, _, "measure(l,[a,\"b\",1.5])"),
     \+ sub_string(Result, _, _, _, "measure(n").
 test(view, nondet) :-
     with_lines([ 'view(Log, V) :- V is Log.case.seed + 1.',
-                 'measure(m, View, View).' ], computes(Result)),
+                 'measure(m, View, View).' ], Dir, File, computes(Result, Dir,
+                                                                  File)),
     sub_string(Result, _, _, _, "measure(m,6)").
 test(view_fails, error(study_goal_failed(view/2))) :-
     with_lines([ 'view(_, _) :- fail.', 'measure(m, View, View).' ],
-               computes(_)).
+               Dir, File, computes(_, Dir, File)).
 test(same_value_twice, nondet) :-
     with_lines([ 'measure(m, _, X) :- member(X, [1, 1]).' ],
-               computes(Result)),
+               Dir, File, computes(Result, Dir, File)),
     sub_string(Result, _, _, _, "measure(m,1)").
 test(two_values, error(study_measures(m, [1, 2]))) :-
-    with_lines([ 'measure(m, _, X) :- member(X, [1, 2]).' ], computes(_)).
+    with_lines([ 'measure(m, _, X) :- member(X, [1, 2]).' ], Dir, File,
+               computes(_, Dir, File)).
 test(seed_of_the_run_is_that_of_its_network, nondet) :-
     with_lines([ 'network(_, ring(3), []).',
                  'run(Case, Network) :-',
                  '    typhon:network_property(Network, seed(Seed)),',
                  '    Seed =:= Case.seed.',
-                 'measure(m, Log, N) :- length(Log.hosts, N).' ],
-               network_alone(Result)),
+                 'measure(m, Log, N) :- length(Log.hosts, N).' ], Dir, File,
+         ( study_load(File, Study),
+           study_cases(Study, [], [Case]),
+           run_make(Study, Case, 5, Dir),
+           text(Dir, 'result.pl', Result) )),
     sub_string(Result, _, _, _, "measure(m,3)").
 test(network_without_run, nondet) :-
     with_lines([ 'network(_, ring(3), []).',
-                 'measure(m, Log, N) :- length(Log.hosts, N).' ],
-               network_alone(Result)),
+                 'measure(m, Log, N) :- length(Log.hosts, N).' ], Dir, File,
+        ( study_load(File, Study),
+          study_cases(Study, [], [Case]),
+          run_make(Study, Case, 5, Dir),
+          text(Dir, 'result.pl', Result) )),
     sub_string(Result, _, _, _, "measure(m,3)").
 
 :- end_tests(study_run).
 
-network_alone(Result, Dir, File) :-
-    study_load(File, Study),
-    study_cases(Study, [], [Case]),
-    run_make(Study, Case, 5, Dir),
-    text(Dir, 'result.pl', Result).

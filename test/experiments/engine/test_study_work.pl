@@ -3,7 +3,7 @@
 % Many runs by several processes: each is made once, however the processes end.
 
 :- use_module('../../lib/common').
-:- use_module('../../lib/study_files', [study_command/4, with_study_file/2]).
+:- use_module('../../lib/study_files', [study_command/4, with_study_file/4]).
 :- use_module(library(apply), [include/3]).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex),
@@ -47,11 +47,11 @@ study([ 'study(toy, "A toy").',
         'until(File) :- sleep(0.05), until(File).'
       ]).
 
-:- meta_predicate with_toy(2).
+:- meta_predicate with_toy(-, -, 0).
 
-with_toy(Goal) :-
+with_toy(Dir, File, Goal) :-
     study(Lines),
-    with_study_file(Lines, Goal).
+    with_study_file(Lines, Dir, File, Goal).
 
 runs(Dir, File, Whats, More, Status, Text) :-
     format(atom(Set), 'what=~w', [Whats]),
@@ -78,27 +78,6 @@ below(Dir, Suffix, Files) :-
 contains(Text, Part) :-
     assertion(once(sub_string(Text, _, _, _, Part))).
 
-made_once(Dir, File) :-
-    runs(Dir, File, '[a,b]', ['--runs', 2], Status, Text),
-    assertion(Status == exit(0)),
-    contains(Text, "4/4 runs"),
-    noted(Dir, Notes),
-    msort(Notes, Sorted),
-    assertion(Sorted == [1-a, 1-b, 2-a, 2-b]),
-    runs(Dir, File, '[a,b]', ['--runs', 2], exit(0), Again),
-    assertion(\+ sub_string(Again, _, _, _, "runs,")),
-    runs(Dir, File, '[a,b,c]', ['--runs', 2], exit(0), _),
-    noted(Dir, More),
-    length(More, Count),
-    assertion(Count == 6),
-    below(Dir, '.part', Left),
-    assertion(Left == []).
-
-first_of_each_case_first(Dir, File) :-
-    runs(Dir, File, '[a,b]', ['--runs', 2, '--jobs', 1], exit(0), _),
-    noted(Dir, Notes),
-    assertion(Notes == [1-a, 1-b, 2-a, 2-b]).
-
 one_process_for_many(Dir, File) :-
     runs(Dir, File, '[a,b]', ['--runs', 3, '--jobs', 1], exit(0), _),
     directory_file_path(Dir, log, Log),
@@ -106,13 +85,6 @@ one_process_for_many(Dir, File) :-
     findall(Pid, member(run(Pid, _), Terms), Pids),
     sort(Pids, Distinct),
     assertion(Distinct = [_]).
-
-what_it_printed(Dir, File) :-
-    runs(Dir, File, '[a]', ['--runs', 1], exit(0), Text),
-    assertion(\+ sub_string(Text, _, _, _, "a says it")),
-    below(Dir, '/output', [Output]),
-    read_file_to_string(Output, Said, []),
-    assertion(Said == "a says it\n").
 
 %   A run that fails is reported, others are made, and it is tried again.
 
@@ -179,42 +151,6 @@ alive(Pid) :-
     format(atom(Directory), '/proc/~d', [Pid]),
     exists_directory(Directory).
 
-leaves_nothing(Signal, Status, Dir, File) :-
-    interrupted(Signal, Status, wait, Dir, File),
-    below(Dir, '.part', Parts),
-    assertion(Parts == []).
-
-%   The next session removes its partial run.
-
-ends_what_is_stuck(Dir, File) :-
-    interrupted(term, 143, stuck, Dir, File),
-    below(Dir, '.part', Parts),
-    assertion(Parts = [_|_]),
-    runs(Dir, File, '[a]', ['--runs', 1], exit(0), _),
-    below(Dir, '.part', Left),
-    assertion(Left == []).
-
-%   Two sessions need the same run, which lasts until both have started.
-
-together(Dir, File) :-
-    project_file('experiments/study.pl', Script),
-    directory_file_path(Dir, out, Out),
-    Args = [ Script, --, File, '--out', Out, '--set', 'what=[until,a]',
-             '--runs', 1, '--jobs', 2 ],
-    with_swipl(Args, One, _, _,
-        with_swipl(Args, Two, _, _,
-            ( wait_until(both(Dir), 60),
-              directory_file_path(Dir, go, Go),
-              setup_call_cleanup(open(Go, write, S), true, close(S)),
-              wait_for_end(One, 60, StatusOne),
-              wait_for_end(Two, 60, StatusTwo) ))),
-    assertion(StatusOne-StatusTwo == exit(0)-exit(0)),
-    below(Dir, '.part', Parts),
-    assertion(Parts == []),
-    below(Dir, '/result.pl', Results),
-    length(Results, Count),
-    assertion(Count == 2).
-
 both(Dir) :-
     noted(Dir, Notes),
     include(==(1-until), Notes, [_, _]).
@@ -241,22 +177,44 @@ changed(Dir, File) :-
 :- begin_tests(study_work).
 
 test(run_is_made_once) :-
-    with_toy(made_once).
+    with_toy(Dir, File,
+        ( runs(Dir, File, '[a,b]', ['--runs', 2], Status, Text),
+          assertion(Status == exit(0)),
+          contains(Text, "4/4 runs"),
+          noted(Dir, Notes),
+          msort(Notes, Sorted),
+          assertion(Sorted == [1-a, 1-b, 2-a, 2-b]),
+          runs(Dir, File, '[a,b]', ['--runs', 2], exit(0), Again),
+          assertion(\+ sub_string(Again, _, _, _, "runs,")),
+          runs(Dir, File, '[a,b,c]', ['--runs', 2], exit(0), _),
+          noted(Dir, More),
+          length(More, Count),
+          assertion(Count == 6),
+          below(Dir, '.part', Left),
+          assertion(Left == []) )).
 test(first_seed_of_each_case_comes_first) :-
-    with_toy(first_of_each_case_first).
+    with_toy(Dir, File,
+        ( runs(Dir, File, '[a,b]', ['--runs', 2, '--jobs', 1], exit(0), _),
+          noted(Dir, Notes),
+          assertion(Notes == [1-a, 1-b, 2-a, 2-b]) )).
 test(one_process_for_many) :-
-    with_toy(one_process_for_many).
+    with_toy(Dir, File, one_process_for_many(Dir, File)).
 test(output_of_a_run_is_kept) :-
-    with_toy(what_it_printed).
+    with_toy(Dir, File,
+        ( runs(Dir, File, '[a]', ['--runs', 1], exit(0), Text),
+          assertion(\+ sub_string(Text, _, _, _, "a says it")),
+          below(Dir, '/output', [Output]),
+          read_file_to_string(Output, Said, []),
+          assertion(Said == "a says it\n") )).
 test(failing, forall(member(What-Why, [ fail-"`here' does not exist",
                                         ball-"Unknown message: ball",
                                         halt-"exit(7)",
                                         kill-"killed(9)" ]))) :-
-    with_toy(failing(What, Why)).
+    with_toy(Dir, File, failing(What, Why, Dir, File)).
 test(same_cause) :-
-    with_toy(same_cause).
+    with_toy(Dir, File, same_cause(Dir, File)).
 test(failed_study_is_collected) :-
-    with_toy(collected_anyway).
+    with_toy(Dir, File, collected_anyway(Dir, File)).
 test(no_such_agent) :-
     with_study_file([ ':- use_module(library(typhon)).',
                       'study(lost, "No such agent").',
@@ -265,13 +223,45 @@ test(no_such_agent) :-
                       '    network_property(Network, hosts([Host|_])),',
                       '    agent_create(agents(missing), _, [host(Host)]).',
                       'measure(m, _, 1).' ],
-                    no_such_agent).
+                    Dir, File, no_such_agent(Dir, File)).
 test(interrupted, forall(member(Signal-Status, [int-130, term-143]))) :-
-    with_toy(leaves_nothing(Signal, Status)).
+    with_toy(Dir, File,
+        ( interrupted(Signal, Status, wait, Dir, File),
+          below(Dir, '.part', Parts),
+          assertion(Parts == []) )).
+
+%   The next session removes its partial run.
+
 test(stuck) :-
-    with_toy(ends_what_is_stuck).
+    with_toy(Dir, File,
+        ( interrupted(term, 143, stuck, Dir, File),
+          below(Dir, '.part', Parts),
+          assertion(Parts = [_|_]),
+          runs(Dir, File, '[a]', ['--runs', 1], exit(0), _),
+          below(Dir, '.part', Left),
+          assertion(Left == []) )).
+
+%   Two sessions need the same run, which lasts until both have started.
+
 test(two_sessions_share_the_work) :-
-    with_toy(together).
+    with_toy(Dir, File,
+        ( project_file('experiments/study.pl', Script),
+          directory_file_path(Dir, out, Out),
+          Args = [ Script, --, File, '--out', Out, '--set', 'what=[until,a]',
+                   '--runs', 1, '--jobs', 2 ],
+          with_swipl(Args, One, _, _,
+              with_swipl(Args, Two, _, _,
+                  ( wait_until(both(Dir), 60),
+                    directory_file_path(Dir, go, Go),
+                    setup_call_cleanup(open(Go, write, S), true, close(S)),
+                    wait_for_end(One, 60, StatusOne),
+                    wait_for_end(Two, 60, StatusTwo) ))),
+          assertion(StatusOne-StatusTwo == exit(0)-exit(0)),
+          below(Dir, '.part', Parts),
+          assertion(Parts == []),
+          below(Dir, '/result.pl', Results),
+          length(Results, Count),
+          assertion(Count == 2) )).
 test(other_runs_do_not_wait_for_a_long_run) :-
     with_study_file([ 'study(long, "The third waits for the last").',
                       'vary(n, [1, 2, 3, 4, 5, 6]).',
@@ -285,16 +275,14 @@ test(other_runs_do_not_wait_for_a_long_run) :-
                       '    get_time(Now),',
                       '    ( Now < Deadline -> sleep(0.05), await(Deadline)',
                       '    ; throw(error(timeout_error(await, done), _)) ).' ],
-                    by_two).
+                    Dir, File,
+        study_command(Dir, [File, '--runs', '1', '--jobs', '2'], exit(0), _)).
 test(study_changed_during_the_run) :-
-    with_toy(changed).
+    with_toy(Dir, File, changed(Dir, File)).
 
 no_such_agent(Dir, File) :-
     study_command(Dir, [File, '--runs', '1'], exit(1), Text),
     contains(Text, "study.pl, seed 1"),
     contains(Text, "There is no file agents(missing)").
-
-by_two(Dir, File) :-
-    study_command(Dir, [File, '--runs', '1', '--jobs', '2'], exit(0), _).
 
 :- end_tests(study_work).

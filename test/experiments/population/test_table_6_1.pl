@@ -51,9 +51,6 @@ test(excited_out_of_order_is_no_row,
 
 :- end_tests(states).
 
-small(Study, Point, Dir) :-
-    first_run(Study, [hosts-12, degree-4], 4, Dir, Point).
-
 :- begin_tests(table_claims).
 
 test(well_formed, Problems == []) :-
@@ -61,7 +58,7 @@ test(well_formed, Problems == []) :-
     invalid_claims(Study, Problems).
 test(holds_in_a_small_network, Failed == []) :-
     study(Study),
-    with_tmp_dir(small(Study, Case-Ms)),
+    with_tmp_dir(Dir, first_run(Study, [hosts-12, degree-4], 4, Dir, Case-Ms)),
     verdicts(Study, [Case-Ms], Verdicts),
     findall(Text, member(Text-false, Verdicts), Failed),
     length(Verdicts, 8).

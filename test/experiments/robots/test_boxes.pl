@@ -185,7 +185,10 @@ test(each_claim_can_fail, [forall(worse(Worse, N)), Failing == [N]]) :-
     subtract([1, 2, 3, 4, 5, 6], Numbers, Failing).
 test(newcomer_idle, Count =:= 0) :-
     events(Events0),
-    exclude_robot(c, Events0, Events),
+    findall(Event,
+            ( member(Event, Events0),
+              \+ ( Event = event(_, _, _, What), What =.. [_,c,_,_] ) ),
+            Events),
     terms(Terms),
     point(Events, Terms, _-Ms),
     Count = Ms.newcomers_used.
@@ -197,11 +200,5 @@ test(reserved_twice, fail) :-
 test(left_reserved, fail) :-
     terms(Terms),
     point([event(1, a, robot, reserved(a, one, box1))], Terms, _).
-
-exclude_robot(Robot, Events0, Events) :-
-    findall(Event,
-            ( member(Event, Events0),
-              \+ ( Event = event(_, _, _, What), What =.. [_,Robot,_,_] ) ),
-            Events).
 
 :- end_tests(boxes_claims).

@@ -153,6 +153,7 @@ test(fork_is_unfolded, Seen == [slept, none]) :-
 
 %   performed(+Name, +Clauses, +Otherwise, -Seen): an agent calls the goal of
 %   a task with these clauses twice; Otherwise if that fails or raises oops.
+
 %   Seen is what was left, and the payloads that the agent then has.
 
 performed(Name, Clauses, Otherwise, [Said, Payloads]) :-
@@ -181,52 +182,47 @@ scene(File) :-
     project_file('bridges/nxt/scenes/pole.json', File).
 
 :- meta_predicate
-    with_arena(+, 2).
+    with_arena(+, -, -, 0).
 
-with_arena(Options, Goal) :-
+with_arena(Options, Arena, Bricks, Goal) :-
     scene(Scene),
     no_leaks(setup_call_cleanup(
                  arena_start(Scene, Options, Arena, Bricks),
-                 ( call(Goal, Arena, Bricks), ! ),
+                 once(Goal),
                  arena_stop(Arena))).
 
 :- begin_tests(arena).
 
 test(bricks) :-
-    with_arena([clock(0)], four_bricks).
-test(time_advances_by_order, Times == [time(0.0), ok, time(2.5)]) :-
-    with_arena([clock(0), seed(3)], times(Times)).
-test(time_does_not_go_back, Times == [ok, ok, time(2.5)]) :-
-    with_arena([clock(0)], until(Times)).
+    with_arena([clock(0)], arena(_, _, _, Dir), Bricks,
+        ( maplist([Name-Port, Name]>>exists_link(Port), Bricks, Names),
+          Names == [r1, r2, r3, r4],
+          exists_directory(Dir) )).
+test(time_advances_by_order, [A, B, C] == [time(0.0), ok, time(2.5)]) :-
+    with_arena([clock(0), seed(3)], Arena, _,
+        ( arena_ask(Arena, time, A),
+          arena_ask(Arena, 'advance ~w'-[2.5], B),
+          arena_ask(Arena, time, C) )).
+test(time_does_not_go_back, [A, B, C] == [ok, ok, time(2.5)]) :-
+    with_arena([clock(0)], Arena, _,
+        ( arena_ask(Arena, 'until 2.5', A),
+          arena_ask(Arena, 'until 1', B),
+          arena_ask(Arena, time, C) )).
 test(unknown_request, error(arena_error('fly away', _))) :-
-    with_arena([clock(0)], [Arena, _]>>arena_ask(Arena, 'fly away', _)).
+    with_arena([clock(0)], Arena, _,
+               arena_ask(Arena, 'fly away', _)).
 test(missing_scene, error(existence_error(_, _))) :-
     no_leaks(arena_start('/no/such/scene.json', [], _, _)).
 test(bad_scene, error(arena_error(start, _))) :-
     project_file('bridges/nxt/world.py', Bad),
     no_leaks(arena_start(Bad, [], _, _)).
 test(killed, error(arena_error(time, _))) :-
-    with_arena([clock(0)], killed).
+    with_arena([clock(0)], Arena, Bricks, killed(Arena, Bricks)).
 test(log_and_picture) :-
     with_tmp_dir(logged).
 
-four_bricks(arena(_, _, _, Dir), Bricks) :-
-    maplist([Name-Port, Name]>>exists_link(Port), Bricks, Names),
-    Names == [r1, r2, r3, r4],
-    exists_directory(Dir).
-
 exists_link(Port) :-
     read_link(Port, _, _).
-
-times([A, B, C], Arena, _) :-
-    arena_ask(Arena, time, A),
-    arena_ask(Arena, 'advance ~w'-[2.5], B),
-    arena_ask(Arena, time, C).
-
-until([A, B, C], Arena, _) :-
-    arena_ask(Arena, 'until 2.5', A),
-    arena_ask(Arena, 'until 1', B),
-    arena_ask(Arena, time, C).
 
 killed(Arena, _) :-
     Arena = arena(Pid, _, _, _),
@@ -239,7 +235,8 @@ logged(Dir) :-
     atom_concat(Dir, '/arena.pl', Log),
     atom_concat(Dir, '/arena.svg', Picture),
     with_arena([clock(0), log(Log), every(0.5), picture(Picture)],
-               [Arena, _]>>arena_ask(Arena, 'advance 2', ok)),
+               Arena, _,
+               arena_ask(Arena, 'advance 2', ok)),
     read_file_to_terms(Log, Terms, []),
     aggregate_all(count, member(state(_, [_,_,_,_], _, []), Terms), Count),
     assertion(Count >= 4),
@@ -258,30 +255,28 @@ logged(Dir) :-
 :- begin_tests(pole_run).
 
 test(in_step) :-
-    with_tmp_dir(carried_in_step).
+    with_tmp_dir(Dir,
+        ( robot_study(pole, Study),
+          no_leaks(small_run(Study, [way-in_step], Dir, Case-Ms)),
+          assertion(Ms.executions =:= 16),
+          assertion(Ms.out_of_order =:= 0),
+          assertion(Ms.early =:= 0),
+          assertion(Ms.tilt =< Ms.tilt_limit),
+          assertion(abs(Ms.carried - 1.2) < 0.05),
+          atom_concat(Dir, '/arena.pl', Log),
+          read_file_to_terms(Log, Terms, []),
+          forall(member(What, [clasped(_), lifted(pole), released(_)]),
+                 assertion(memberchk(event(_, What), Terms))),
+          directory_file_path(Dir, pictures, Pictures),
+          make_directory(Pictures),
+          drawn(Study, [Case-Ms], Pictures, Files),
+          assertion(subset([ 'in_step.svg', '5.14.gnuplot', 'hosts.dat',
+                             'starts.dat', 'tasks.dat', 'tau.dat',
+                             'tilt.dat' ], Files)) )).
 test(in_real_time) :-
     with_tmp_dir(carried_in_real_time).
 test(interrupted, Status == exit(130)) :-
     with_tmp_dir(interrupted(Status)).
-
-carried_in_step(Dir) :-
-    robot_study(pole, Study),
-    no_leaks(small_run(Study, [way-in_step], Dir, Case-Ms)),
-    assertion(Ms.executions =:= 16),
-    assertion(Ms.out_of_order =:= 0),
-    assertion(Ms.early =:= 0),
-    assertion(Ms.tilt =< Ms.tilt_limit),
-    assertion(abs(Ms.carried - 1.2) < 0.05),
-    atom_concat(Dir, '/arena.pl', Log),
-    read_file_to_terms(Log, Terms, []),
-    forall(member(What, [clasped(_), lifted(pole), released(_)]),
-           assertion(memberchk(event(_, What), Terms))),
-    directory_file_path(Dir, pictures, Pictures),
-    make_directory(Pictures),
-    drawn(Study, [Case-Ms], Pictures, Files),
-    assertion(subset([ 'in_step.svg', '5.14.gnuplot', 'hosts.dat',
-                       'starts.dat', 'tasks.dat', 'tau.dat',
-                       'tilt.dat' ], Files)).
 
 %   Hosts in processes of their own, on a fast clock: robots may be late.
 

@@ -1,4 +1,4 @@
-:- use_module('../../lib/common', [with_tmp_dir/1]).
+:- use_module('../../lib/common', [with_tmp_dir/1, with_tmp_dir/2]).
 :- use_module('../../lib/project_studies').
 :- use_module(library(aggregate)).
 :- use_module(library(lists)).
@@ -149,13 +149,6 @@ check_rounds(Dir) :-
                   Present),
     Present > 0.
 
-check_memory(Dir) :-
-    small(Given),
-    study(beyond_memory, Study),
-    first_run(Study, [memory_cells-1|Given], 1, Dir, _-Ms),
-    length(Ms.able, 16),
-    Ms.first > 0.
-
 check_return(Dir) :-
     small(Given),
     study(beyond_return, Study),
@@ -169,7 +162,12 @@ check_return(Dir) :-
 test(ten_rounds) :-
     with_tmp_dir(check_rounds).
 test(memory_cells) :-
-    with_tmp_dir(check_memory).
+    with_tmp_dir(Dir,
+        ( small(Given),
+          study(beyond_memory, Study),
+          first_run(Study, [memory_cells-1|Given], 1, Dir, _-Ms),
+          length(Ms.able, 16),
+          Ms.first > 0 )).
 test(antigen_comes_back) :-
     with_tmp_dir(check_return).
 

@@ -175,10 +175,6 @@ least(ring, Agents, Agents) :-
 least(_, Agents, Idle) :-
     Idle is abs(Agents - 10).
 
-points(Held, Name, Study, Points) :-
-    study_cases(Study, [], Cases),
-    maplist(point(Held, Name), Cases, Points).
-
 point(Held, Name, Case, Case-Measures) :-
     any(Held, Common),
     once(made(Held, Name, Case, Pairs)),
@@ -195,7 +191,8 @@ test(claims_can_hold_and_can_fail,
      [ forall(( a_study(Name, _), member(Held, [true, false]) )),
        true(Others == []) ]) :-
     sync_study(Name, Study),
-    points(Held, Name, Study, Points),
+    study_cases(Study, [], Cases),
+    maplist(point(Held, Name), Cases, Points),
     verdicts(Study, Points, Verdicts),
     findall(Text, ( member(Text-Found, Verdicts), Found \== Held ), Others).
 
