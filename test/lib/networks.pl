@@ -16,6 +16,8 @@
 */
 
 :- meta_predicate
+    checked(0),
+    running(0, -, 0),
     with_network(+, +, -, 0),
     with_network(+, +, -, -, 0),
     with_loaded_network(+, -, 0),
@@ -25,13 +27,21 @@
 %!  with_network(+Topology, +Options, -Network, -Hosts, :Goal) is semidet.
 %
 %   Calls Goal, which may stop Network itself, once. Nothing may be left
-%   afterwards.
+%   afterwards, unless hosts ran here before.
 
 with_network(Topology, Options, Network, Goal) :-
     running(network_start(Topology, Network, Options), Network, Goal).
 
 running(Start, Network, Goal) :-
-    no_leaks(setup_call_cleanup(Start, once(Goal), stopped(Network))).
+    checked(setup_call_cleanup(Start, once(Goal), stopped(Network))).
+
+%   Hosts that run before keep their connections to processes of the network.
+
+checked(Goal) :-
+    (   host_property(_, state(_))
+    ->  once(Goal)
+    ;   no_leaks(Goal)
+    ).
 
 stopped(Network) :-
     catch(network_stop(Network), error(existence_error(network, _), _), true).

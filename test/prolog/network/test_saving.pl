@@ -415,14 +415,12 @@ idler(Agent) :-
 %   The variable is unified before it is used.
 
 test(rule_in_the_state_of_an_agent, X == at(1)) :-
+    Program = clauses([ (:- agent(a, [state([same/2])])),
+                        (main :- receive(_-Y), same(Y, Z), leave(got(Z))) ]),
     Rule = ( same(P, Q) :- P = at(_), ( P = at(2) -> Q = two ; Q = P ) ),
     with_file(File,
         ( with_network(ring(3), [clock(virtual), seed(1)], N1,
-                       ( agent_create(clauses([ (:- agent(a, [state([same/2])])),
-                                                (main :- receive(_-Y),
-                                                         same(Y, Z),
-                                                         leave(got(Z))) ]),
-                                      A, [facts([Rule])]),
+                       ( agent_create(Program, A, [facts([Rule])]),
                          network_save(N1, File) )),
           with_loaded_network(File, N2, network_save(N2, File)),
           with_loaded_network(File, _,

@@ -1,6 +1,7 @@
 :- module(test_completion, []).
 :- use_module(library(plunit)).
 :- use_module('../../lib/common').
+:- use_module('../../lib/networks').
 :- use_module('../../lib/fixtures').
 :- use_module(library(lists)).
 :- use_module(library(typhon)).
@@ -77,9 +78,8 @@ test(payloads) :-
     completed("[payloads([payloads(sieve/", Texts),
     assertion(memberchk('sieve/bits', Texts)).
 test(networks, Line == Wanted) :-
-    setup_call_cleanup(network_start(ring(2), Network, [clock(virtual)]),
-                       on_tab("network_stop(n", Line),
-                       network_stop(Network)),
+    with_network(ring(2), [clock(virtual)], Network,
+        on_tab("network_stop(n", Line)),
     format(string(Wanted), "network_stop(~w", [Network]).
 test(other_text_is_completed_as_usual) :-
     with_agents(( completed("memberch", Texts),

@@ -1,6 +1,7 @@
 :- module(test_mistyped, []).
 :- use_module(library(plunit)).
 :- use_module('../../lib/common').
+:- use_module('../../lib/networks').
 :- use_module('../../lib/fixtures').
 :- use_module(library(apply)).
 :- use_module(library(filesex)).
@@ -162,11 +163,9 @@ test(host) :-
                         [ "There is no host alhpa here (did you mean alpha?)"
                         ]) )).
 test(network) :-
-    setup_call_cleanup(
-        network_start(ring(2), N, [clock(virtual)]),
+    with_network(ring(2), [clock(virtual)], N,
         ( atom_concat(N, x, Mistyped),
-          raises(network_stop(Mistyped), ["(did you mean ", N]) ),
-        network_stop(N)).
+          raises(network_stop(Mistyped), ["(did you mean ", N]) )).
 test(existing_host_is_reported) :-
     with_hosts([alpha],
                raises(host_start(alpha),

@@ -72,21 +72,18 @@ test(supervisors_of_supervisors, true) :-
                                              [facts([child(a, W, [])])])]) ]),
                  has_shape([], [top-top-[sub-child-[a-child-[]]]]) )).
 test(agents_of_other_processes, [nondet]) :-
-    no_leaks(with_peers([p1, p2], elsewhere)).
-
-elsewhere :-
-    peer_host(p1, H1),
-    peer_host(p2, H2),
-    peer_do(p1, link(p1, H2)),
-    worker(W),
-    setup_call_cleanup(
-        host_start(alpha),
-        ( agent_create(agents(supervisor), _,
-                       [ host(H1), facts([child(a, W, [host(H1)]),
-                                          child(b, W, [host(H2)])]) ]),
-          has_shape([H1], [supervisor-top-[a-child-[], b-child-[]]]) ),
-        host_stop(alpha)).
-
+    no_leaks(with_peers([p1, p2],
+        ( peer_host(p1, H1),
+          peer_host(p2, H2),
+          peer_do(p1, link(p1, H2)),
+          worker(W),
+          setup_call_cleanup(
+              host_start(alpha),
+              ( agent_create(agents(supervisor), _,
+                             [ host(H1), facts([child(a, W, [host(H1)]),
+                                                child(b, W, [host(H2)])]) ]),
+                has_shape([H1], [supervisor-top-[a-child-[], b-child-[]]]) ),
+              host_stop(alpha)) ))).
 test(table) :-
     with_hosts([alpha],
                ( supervisor([a], [], _),

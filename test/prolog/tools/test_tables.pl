@@ -4,6 +4,7 @@
 % or joined one.
 
 :- use_module('../../lib/common').
+:- use_module('../../lib/networks').
 :- use_module('../../lib/fixtures').
 :- use_module(library(apply), [exclude/3]).
 :- use_module(library(debug), [assertion/1]).
@@ -49,28 +50,25 @@ test(agent_under_way_within_the_process) :-
                             "beta", "0", "0"])).
 
 test(activity_of_an_agent) :-
-    with_hosts([alpha-[clock(virtual)], beta-[clock(virtual)]], doings).
-
-doings :-
-    create([(main :- receive(_-go(_)))], W1, [name(waits), host(beta)]),
-    create([(main :- sleep(7))], S, [name(sleeps), host(alpha)]),
-    create([on_message(_, _)], _, [name(stays), host(alpha)]),
-    capturing(( create([(main :- foo(_) is _)], F,
-                       [name(errs), host(alpha)]),
-                agent_join(F, _, 0.5) ), _),
-    forall(member(A, [W1, W1, S]), agent_send(A, hello)),
-    agent_join(S, timeout, 2),
-    table(agents, Lines),
-    assertion(shows(Lines, ["agent", "host", "program", "state", "hops",
-                            "mail"])),
-    assertion(shows(Lines, ["waits", "beta", "test", "waiting", "for",
-                            "_-go(_)", "0", "2"])),
-    assertion(shows(Lines, ["sleeps", "alpha", "test", "sleeping,", "5.0",
-                            "s", "left", "0", "1"])),
-    assertion(shows(Lines, ["stays", "alpha", "test", "resident", "0",
-                            "0"])),
-    assertion(matches(Lines, "errs*faulty: instantiation_error*")).
-
+    with_hosts([alpha-[clock(virtual)], beta-[clock(virtual)]],
+        ( create([(main :- receive(_-go(_)))], W1, [name(waits), host(beta)]),
+          create([(main :- sleep(7))], S, [name(sleeps), host(alpha)]),
+          create([on_message(_, _)], _, [name(stays), host(alpha)]),
+          capturing(( create([(main :- foo(_) is _)], F,
+                             [name(errs), host(alpha)]),
+                      agent_join(F, _, 0.5) ), _),
+          forall(member(A, [W1, W1, S]), agent_send(A, hello)),
+          agent_join(S, timeout, 2),
+          table(agents, Lines),
+          assertion(shows(Lines, ["agent", "host", "program", "state", "hops",
+                                  "mail"])),
+          assertion(shows(Lines, ["waits", "beta", "test", "waiting", "for",
+                                  "_-go(_)", "0", "2"])),
+          assertion(shows(Lines, ["sleeps", "alpha", "test", "sleeping,", "5.0",
+                                  "s", "left", "0", "1"])),
+          assertion(shows(Lines, ["stays", "alpha", "test", "resident", "0",
+                                  "0"])),
+          assertion(matches(Lines, "errs*faulty: instantiation_error*")) )).
 test(columns_are_aligned,
      Lines == [ "agent        host   program  state     hops  mail",
                 "a            alpha  test     resident     0     0",
@@ -83,47 +81,47 @@ test(columns_are_aligned,
                  table(agents, Lines) )).
 
 test(unique_names_are_shortened) :-
-    with_hosts([alpha-[clock(virtual)]], names).
-
-names :-
-    forall(member(Name, [bob, carl, carl]),
-           create([on_message(_, _)], _, [name(Name)])),
-    table(agents, [_|Lines]),
-    assertion(matches(Lines, "bob  *alpha *")),
-    findall(Line, ( member(Line, Lines),
-                    wildcard_match("carl.v.*@alpha@* alpha *", Line) ),
-            Carls),
-    assertion(length(Carls, 2)).
-
+    with_hosts([alpha-[clock(virtual)]],
+        ( forall(member(Name, [bob, carl, carl]),
+                 create([on_message(_, _)], _, [name(Name)])),
+          table(agents, [_|Lines]),
+          assertion(matches(Lines, "bob  *alpha *")),
+          findall(Line, ( member(Line, Lines),
+                          wildcard_match("carl.v.*@alpha@* alpha *", Line) ),
+                  Carls),
+          assertion(length(Carls, 2)) )).
 test(sorted_in_natural_order) :-
-    no_leaks(setup_call_cleanup(
-                 network_start(ring(11), Network, [clock(virtual)]),
-                 table(hosts, Lines),
-                 network_stop(Network))),
+    with_network(ring(11), [clock(virtual)], _,
+        table(hosts, Lines)),
     findall(Name, ( member(Line, Lines), split_string(Line, "@", "", [Name,_|_]) ),
             Names),
     findall(N, ( between(1, 11, I), format(string(N), "n~d", [I]) ), Expected),
     assertion(Names == Expected).
 
 test(long_list_of_agents_is_shortened) :-
-    with_hosts([alpha-[clock(virtual)]], many).
+    with_hosts([alpha-[clock(virtual)]],
+        ( forall(between(1, 70, I),
+                 ( atom_concat(w, I, Name),
+                   create([on_message(_, _)], _, [name(Name)]) )),
+          table(agents, Lines),
+          length(Lines, Length),
+          assertion(Length =:= 62),
+          assertion(matches(Lines, "... and 10 more")),
+          nth1(61, Lines, Last),
+          assertion(wildcard_match("w60 *", Last)) )).
 
-many :-
-    forall(between(1, 70, I),
-           ( atom_concat(w, I, Name),
-             create([on_message(_, _)], _, [name(Name)]) )),
-    table(agents, Lines),
-    length(Lines, Length),
-    assertion(Length =:= 62),
-    assertion(matches(Lines, "... and 10 more")),
-    nth1(61, Lines, Last),
-    assertion(wildcard_match("w60 *", Last)).
+%   A process that has only joined the network lists all of it, too. A hanging
+%   process delays the list no longer than the setting says, and is named.
 
 test(whole_network) :-
-    no_leaks(setup_call_cleanup(
-                 network_start(ring(3), Network, [processes(3)]),
-                 whole(Network),
-                 network_stop(Network))).
+    with_network(ring(3), [processes(3)], Network, [H1,H2,_],
+        ( network_property(Network, processes([_, P2, P3])),
+          create([on_message(_, _)], A, [host(H2), name(far)]),
+          agent_send(A, hello),
+          wait_until(sees(agents, "far *n2 *resident *"), 5),
+          wait_until(joined_sees(H1), 20),
+          with_settings([typhon_inventory:seconds=1],
+                        hangs(P2, P3)) )).
 
 %   A process that listens at two ports is one.
 
@@ -143,19 +141,6 @@ two_ports_seen(Alpha, Lines) :-
             link(gamma, ~q), hosts, halt', [Typhon, Alpha, Beta]),
     run_swipl(['-f', none, '-g', Goal], [], exit(0), Out, ""),
     split_string(Out, "\n", "\n", [_|Lines]).
-
-%   A process that has only joined the network lists all of it, too. A hanging
-%   process delays the list no longer than the setting says, and is named.
-
-whole(Network) :-
-    network_property(Network, hosts([H1,H2,_])),
-    network_property(Network, processes([_, P2, P3])),
-    create([on_message(_, _)], A, [host(H2), name(far)]),
-    agent_send(A, hello),
-    wait_until(sees(agents, "far *n2 *resident *"), 5),
-    wait_until(joined_sees(H1), 20),
-    with_settings([typhon_inventory:seconds=1],
-                  hangs(P2, P3)).
 
 sees(Table, Pattern) :-
     table(Table, Lines),

@@ -64,43 +64,35 @@ file('hi.pl', ":- agent(hi, []).\non_message(_, _).\n").
 test(error_prints_one_line,
      [ condition(( missing([python3], []), top_level_continues )),
        Others == [] ]) :-
-    with_tmp_dir(mistakes(Others)).
-
-mistakes(Others, Dir) :-
-    forall(file(Name, Text), put(Dir, Name, Text)),
-    findall(Mistake, mistake(Mistake), Mistakes),
-    typed_in_terminal(
-        ['host_start(alpha), agent_create(hi, _, [name(bob)]).'|Mistakes],
-        Dir, [_|Outputs]),
-    findall(Mistake-Output,
-            ( nth1(N, Mistakes, Mistake), nth1(N, Outputs, Output),
-              \+ one_error(Output) ),
-            Others).
+    with_tmp_dir(Dir,
+        ( forall(file(Name, Text), put(Dir, Name, Text)),
+          findall(Mistake, mistake(Mistake), Mistakes),
+          typed_in_terminal(
+              ['host_start(alpha), agent_create(hi, _, [name(bob)]).'|Mistakes],
+              Dir, [_|Outputs]),
+          findall(Mistake-Output,
+                  ( nth1(N, Mistakes, Mistake), nth1(N, Outputs, Output),
+                    \+ one_error(Output) ),
+                  Others) )).
 
 one_error([Line]) :-
     sub_string(Line, 0, _, _, "ERROR: ").
 
 test(debugging_errors_prints_a_backtrace,
      [ condition(missing([python3], [])), nondet ]) :-
-    with_tmp_dir(backtrace(Outputs)),
+    with_tmp_dir(Dir,
+        ( typed_in_terminal([ 'host_start(alpha).', 'debug(typhon(errors)).',
+                              'agent_create(no_such_file, A).' ],
+                            Dir, [_|Outputs]) )),
     Outputs = [_, [Line|Lines]],
     assertion(sub_string(Line, 0, _, _, "ERROR: ")),
     assertion(memberchk("ERROR: In:", Lines)),
     assertion(( member(Frame, Lines),
                 sub_string(Frame, _, _, _, "create_by(") )).
-
-backtrace(Outputs, Dir) :-
-    typed_in_terminal([ 'host_start(alpha).', 'debug(typhon(errors)).',
-                        'agent_create(no_such_file, A).' ],
-                      Dir, [_|Outputs]).
-
 test(errors_of_other_predicates_keep_their_backtrace,
      condition(missing([python3], []))) :-
-    with_tmp_dir(other_error(Lines)),
+    with_tmp_dir(Dir, typed_in_terminal(['atom_length(_, _).'], Dir, [Lines])),
     assertion(memberchk("ERROR: In:", Lines)).
-
-other_error(Lines, Dir) :-
-    typed_in_terminal(['atom_length(_, _).'], Dir, [Lines]).
 
 %   Goals that are arguments of public predicates run in the module of the
 %   caller.
@@ -144,17 +136,15 @@ bare(Library, PI) :-
 %   Prolog would offer the predicate of a module instead.
 
 test(vocabulary_is_not_corrected, true(N-Written == 3-[])) :-
-    with_tmp_dir(words_typed(Lines)),
+    with_tmp_dir(Dir,
+        ( typed([ 'move(beta).', 'forall(true, move(beta)).',
+                  'atom(a), move(beta).' ], Dir, Lines) )),
     findall(x, ( member(L, Lines),
                  sub_string(L, _, _, _, "agent_move(Agent, Host)") ), Xs),
     length(Xs, N),
     findall(L, ( member(L, Lines),
                  ( sub_string(L, _, _, _, "typhon_")
                  ; sub_string(L, _, _, _, "Exception") ) ), Written).
-
-words_typed(Lines, Dir) :-
-    typed([ 'move(beta).', 'forall(true, move(beta)).',
-            'atom(a), move(beta).' ], Dir, Lines).
 
 :- end_tests(errors_at_the_top_level).
 

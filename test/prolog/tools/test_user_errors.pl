@@ -1,6 +1,7 @@
 :- module(test_user_errors, []).
 :- use_module(library(plunit)).
 :- use_module('../../lib/common').
+:- use_module('../../lib/networks').
 :- use_module('../../lib/fixtures').
 :- use_module('../../lib/top_level').
 :- use_module(library(filesex)).
@@ -115,9 +116,8 @@ started(Host, Option) :-
     setup_call_cleanup(host_start(Host, [Option]), true, host_stop(Host)).
 
 logged(Options, File) :-
-    setup_call_cleanup(network_start(ring(2), Net, Options),
-                       network_save(Net, File),
-                       network_stop(Net)),
+    with_network(ring(2), Options, Net,
+        network_save(Net, File)),
     setup_call_cleanup(network_load(File, Again, []), true,
                        network_stop(Again)).
 
@@ -154,12 +154,10 @@ message_text(Error, Text) :-
                    print_message_lines(current_output, '', Lines)).
 
 with(Goal) :-
-    no_leaks(setup_call_cleanup(
-                 network_start(edges([alpha-beta]), Net, [clock(virtual)]),
-                 ( create([on_message(_, _)], _, [name(bob), host(alpha)]),
-                   forall(call(Goal, Net, Problem),
-                          assertion(Problem == none)) ),
-                 network_stop(Net))).
+    with_network(edges([alpha-beta]), [clock(virtual)], Net,
+        ( create([on_message(_, _)], _, [name(bob), host(alpha)]),
+          forall(call(Goal, Net, Problem),
+                 assertion(Problem == none)) )).
 
 %   replaced(+Net, -Call, -I, -Name): argument I of Call is unbound. It is an
 %   input of this name, or '' if it may be unbound.
@@ -274,8 +272,8 @@ test(file_of_an_unknown_path_does_not_exist,
                                   -no_path(x) ])),
        error(existence_error(source_sink, Spec)) ]) :-
     (   Goal = network_save(Net, _)
-    ->  no_leaks(setup_call_cleanup(network_start(ring(2), Net, []), Goal,
-                                    network_stop(Net)))
+    ->  with_network(ring(2), [], Net,
+            Goal)
     ;   call(Goal)
     ).
 

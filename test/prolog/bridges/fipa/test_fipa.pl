@@ -697,7 +697,12 @@ test(one_address_does_not_displace_another, Status == 200) :-
           sub_string(Text, 0, 20, _, Begin),
           sub_string(Text, 20, _, 0, End),
           setup_call_cleanup(
-              connected_from('127.0.0.2', Port, In, Out),
+              ( tcp_socket(Socket),
+                tcp_bind(Socket, '127.0.0.2':_),
+                tcp_connect(Socket, '127.0.0.1':Port),
+                tcp_open_socket(Socket, In, Out),
+                maplist([S]>>set_stream(S, encoding(octet)), [In, Out]),
+                maplist([S]>>set_stream(S, newline(posix)), [In, Out]) ),
               ( write(Out, Begin), flush_output(Out),
                 findall(Stream,
                         ( between(1, 30, _), half_request(Url, Stream) ),
@@ -708,14 +713,6 @@ test(one_address_does_not_displace_another, Status == 200) :-
                 status(In, Status),
                 maplist(shut, Streams) ),
               ( shut(Out), shut(In) )) )).
-
-connected_from(Address, Port, In, Out) :-
-    tcp_socket(Socket),
-    tcp_bind(Socket, Address:_),
-    tcp_connect(Socket, '127.0.0.1':Port),
-    tcp_open_socket(Socket, In, Out),
-    maplist([S]>>set_stream(S, encoding(octet)), [In, Out]),
-    maplist([S]>>set_stream(S, newline(posix)), [In, Out]).
 
 shut(Stream) :-
     close(Stream, [force(true)]).

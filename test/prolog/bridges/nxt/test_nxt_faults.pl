@@ -64,7 +64,10 @@ test(no_python, E == existence_error(python, '/no/python')) :-
                       E, _)).
 test(no_pyserial, E-Found == existence_error(python_module, serial)-true) :-
     with_tmp_dir(no_pyserial(E, Context)),
-    message_to_text(error(E, Context), Text),
+    '$messages':translate_message(error(E, Context), Lines, []),
+    with_output_to(codes(Codes),
+                   print_message_lines(current_output, '', Lines)),
+    string_codes(Text, Codes),
     ( sub_string(Text, _, _, _, "python3-serial") -> Found = true
     ; Found = Text ).
 test(options, E == domain_error(nxt_option, colour(red))) :-
@@ -78,15 +81,6 @@ no_pyserial(E, Context, Dir) :-
         close(Out)),
     process_create(path(chmod), ['+x', File], []),
     error_of(nxt_connect(b, '/dev/x', [python(File)]), E, Context).
-
-message_to_text(Error, Text) :-
-    message_to_codes_(Error, Codes),
-    string_codes(Text, Codes).
-
-message_to_codes_(Error, Codes) :-
-    '$messages':translate_message(Error, Lines, []),
-    with_output_to(codes(Codes),
-                   print_message_lines(current_output, '', Lines)).
 
 :- end_tests(nxt_ports).
 

@@ -7,6 +7,7 @@ itself.
 */
 
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/networks').
 :- needs([python3]).
 :- use_module('../../../lib/fixtures').
 :- use_module(library(plunit)).
@@ -60,7 +61,6 @@ shared_python :-
 with_python([], Goal) :-
     call(Goal).
 
-
 test(values_return_unchanged) :-
     Values = [ 1, -7, 1267650600228229401496703205376, 0.5, "text", "", "\u00e4\n\"",
                "\U0001F600",
@@ -85,6 +85,7 @@ test(unconvertible_results) :-
     assertion(NaN = python_error('ValueError', _)),
     assertion(Object = python_error('TypeError', _)),
     assertion(Deep = python_error('RecursionError', _)).
+
 %   A list is never truncated silently.
 
 test(long_lists, [Length, Error] = [1000002, python_error('OverflowError', _)]) :-
@@ -190,14 +191,11 @@ test(stopped_twice, error(existence_error(python, alpha), _)) :-
     with_python([], ( python_stop(alpha), python_stop(alpha) )).
 test(starts_with_a_remote_host, R == [5]) :-
     functions(File),
-    setup_call_cleanup(
-        network_start(line(2), N, [processes(2)]),
-        ( network_property(N, hosts(Hosts)),
-          last(Hosts, Far),
+    with_network(line(2), [processes(2)], _, Hosts,
+        ( last(Hosts, Far),
           python_start(Far, File, []),
           remote(Far, echo([5], R)),
-          python_stop(Far) ),
-        network_stop(N)).
+          python_stop(Far) )).
 
 area_of(Dict, Dict.area).
 
@@ -431,8 +429,20 @@ mail(Agent, Count) :-
 
 :- begin_tests(python_payloads).
 
+%   The host is in another process, which has not loaded Python yet.
+
 test(payload_is_carried_and_delivered, R == [42, 12]) :-
-    with_tmp_dir(carried(R)).
+    with_tmp_dir(Dir,
+        ( twice(Dir, File),
+          with_network(line(2), [processes(2)], _, [Near,Far],
+              ( host_change(Far, python(true)),
+                create([ (main :- r(F), move(F), deliver(twice), twice(21, X),
+                          result(X)) ], A,
+                       [host(Near), payloads([File]), facts([r(Far)])]),
+                joined(A, done),
+                agent_result(A, X, 5),
+                remote(Far, twice(6, Y)) )),
+          R = [X,Y] )).
 test(payload_is_refused_where_not_allowed,
      E == permission_error(deliver, python,
                            twice)) :-
@@ -451,23 +461,6 @@ test(payload_works_after_a_crash, R == 42) :-
 
 twice(Dir, File) :-
     file(Dir, 'twice.py', ['def twice(x): return 2*x'], File).
-
-%   The host is in another process, which has not loaded Python yet.
-
-carried(R, Dir) :-
-    twice(Dir, File),
-    setup_call_cleanup(
-        network_start(line(2), N, [processes(2)]),
-        ( network_property(N, hosts([Near,Far])),
-          host_change(Far, python(true)),
-          create([ (main :- r(F), move(F), deliver(twice), twice(21, X),
-                    result(X)) ], A,
-                 [host(Near), payloads([File]), facts([r(Far)])]),
-          joined(A, done),
-          agent_result(A, X, 5),
-          remote(Far, twice(6, Y)) ),
-        network_stop(N)),
-    R = [X,Y].
 
 refused(E, Dir) :-
     twice(Dir, File),

@@ -309,13 +309,6 @@ comes_back(Agent, Text) :-
 
 :- end_tests(ros2).
 
-document(Differences, Dir) :-
-    directory_file_path(Dir, 'talker.pl', File),
-    shown_in_file('doc/bridges-ros.md', "% talker.pl\n", File),
-    shown('doc/bridges-ros.md', "```text\n", Session),
-    split_string(Session, "\n", "", Lines),
-    transcript_differences([1-Lines], Dir, Differences).
-
 %   More messages arrive than are read, in Python alone.
 
 outbox("
@@ -352,7 +345,12 @@ test(overflow_is_counted, Said == "5000 True") :-
     python(Code, Said).
 
 test(document_shows_the_actual_output, Differences == []) :-
-    with_tmp_dir(document(Differences)).
+    with_tmp_dir(Dir,
+        ( directory_file_path(Dir, 'talker.pl', File),
+          shown_in_file('doc/bridges-ros.md', "% talker.pl\n", File),
+          shown('doc/bridges-ros.md', "```text\n", Session),
+          split_string(Session, "\n", "", Lines),
+          transcript_differences([1-Lines], Dir, Differences) )).
 
 with_alpha(Goal) :-
     setup_call_cleanup(host_start(alpha), Goal, host_stop(alpha)).

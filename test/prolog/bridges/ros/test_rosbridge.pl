@@ -7,6 +7,7 @@ real one refuses.
 */
 
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/networks').
 :- use_module('../../../lib/ros_agents').
 :- use_module('../../../lib/rosbridge_server').
 :- use_module(library(apply), [maplist/2]).
@@ -502,14 +503,11 @@ test(started_twice, error(permission_error(start, ros, alpha))) :-
 
 test(properties_of_a_host_in_another_process) :-
     no_leaks(with_rosbridge(URL,
-        setup_call_cleanup(
-            network_start(line(2), N, [processes(2)]),
-            ( network_property(N, hosts([_,Far])),
-              assertion(\+ typhon:ros_property(Far, _)),
+        with_network(line(2), [processes(2)], _, [_,Far],
+            ( assertion(\+ typhon:ros_property(Far, _)),
               ros_start(Far, URL, []),
               findall(P, typhon:ros_property(Far, P), Ps),
-              catch(typhon:ros_property(nowhere, _), error(E, _), true) ),
-            network_stop(N)))),
+              catch(typhon:ros_property(nowhere, _), error(E, _), true) )))),
     assertion(memberchk(way(URL), Ps)),
     assertion(memberchk(connected(true), Ps)),
     assertion(E == existence_error(host, nowhere)).

@@ -1,5 +1,6 @@
 :- module(test_page_replay, []).
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/networks').
 
 :- needs([chromium, 'chromium-driver']).
 
@@ -66,12 +67,10 @@ make_log(Program, Log) :-
     no_leaks(run(Program, Log)).
 
 run(Program, Log) :-
-    setup_call_cleanup(
-        network_start(grid(3, 4), Network,
-                      [ clock(virtual), seed(1), hop_time(uniform(0.5, 1.5)),
-                        log(Log, [hops, messages(content), links, hosts]) ]),
-        talk(Program, Network),
-        network_stop(Network)).
+    with_network(grid(3, 4),
+                 [ clock(virtual), seed(1), hop_time(uniform(0.5, 1.5)),
+                   log(Log, [hops, messages(content), links, hosts]) ], Network,
+        talk(Program, Network)).
 
 talk(Program, Network) :-
     network_property(Network, hosts(Hosts)),
@@ -167,10 +166,6 @@ look(Script, Result) :-
     replayed(Browser, _, _),
     browser_run(Browser, Script, Result).
 
-until(Script) :-
-    replayed(Browser, _, _),
-    browser_wait(Browser, Script).
-
 %   saved(+View, +Kind, -File): the file that a button of a view saves.
 
 saved(View, svg, File) :-
@@ -216,7 +211,8 @@ test(plays_to_the_end, End == true) :-
     seek(0, _),
     look("typhon.player.setSpeed(50); \c
           document.querySelector('[aria-label=Play]').click()", _),
-    until("return !typhon.player.playing"),
+    replayed(Browser, _, _),
+    browser_wait(Browser, "return !typhon.player.playing"),
     look("return typhon.player.time === typhon.player.last", End),
     seek(1, Time),
     same_counts(Time).
@@ -437,27 +433,23 @@ test(file_that_is_no_text) :-
 
 :- begin_tests(page_export, [condition(tools_there)]).
 
-export(Log, Dir) :-
-    directory_file_path(Dir, 'x.html', Html),
-    page_export(Log, Html, []).
-
 test(no_log, error(existence_error(source_sink, 'no.log'), _)) :-
-    with_tmp_dir(export('no.log')).
+    with_tmp_dir(Dir,
+        ( directory_file_path(Dir, 'x.html', Html),
+          page_export('no.log', Html, []) )).
 test(unknown_option, error(domain_error(export_option, colour(red)), _)) :-
     page_export('a.log', 'a.html', [colour(red)]).
 test(script_is_not_closed_by_a_name) :-
-    with_tmp_dir(ends_no_script).
-
-ends_no_script(Dir) :-
-    maplist(directory_file_path(Dir), ['a.log', 'a.html'], [Log, Html]),
-    hostile(Name),
-    setup_call_cleanup(
-        open(Log, write, Out),
-        format(Out, '~q.~n', [event(1, 'a@h:1', 'b.1@a@h:1', Name)]),
-        close(Out)),
-    page_export(Log, Html, []),
-    read_file_to_string(Html, Text, [encoding(utf8)]),
-    assertion(\+ sub_string(Text, _, _, _, "<img src=x")),
-    assertion(sub_string(Text, _, _, _, "\\u003cimg src=x")).
+    with_tmp_dir(Dir,
+        ( maplist(directory_file_path(Dir), ['a.log', 'a.html'], [Log, Html]),
+          hostile(Name),
+          setup_call_cleanup(
+              open(Log, write, Out),
+              format(Out, '~q.~n', [event(1, 'a@h:1', 'b.1@a@h:1', Name)]),
+              close(Out)),
+          page_export(Log, Html, []),
+          read_file_to_string(Html, Text, [encoding(utf8)]),
+          assertion(\+ sub_string(Text, _, _, _, "<img src=x")),
+          assertion(sub_string(Text, _, _, _, "\\u003cimg src=x")) )).
 
 :- end_tests(page_export).
