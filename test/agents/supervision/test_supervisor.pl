@@ -4,7 +4,8 @@
 :- use_module('../../lib/peers').
 :- use_module(library(plunit)).
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(lists), [append/2, member/2]).
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(lists), [append/2, member/2, nth1/3]).
 :- use_module(library(pairs), [map_list_to_pairs/3]).
 :- use_module(library(prolog_wrap), [unwrap_predicate/2, wrap_predicate/4]).
 :- use_module(library(typhon)).
@@ -33,84 +34,69 @@ children(S, Children, Ids) :-
     length(Children, Count),
     length(Ids, Count).
 
-%   kept(+Strategy, -Kept): those of a, b and c that are the same agents after
-%   b has ended.
+%   with_children(+Children, +More, -Supervisor, -Ids, :Goal): on the host alpha;
+%   messages are not printed.
 
-kept(Strategy, Kept) :-
-    Children = [a-[], b-[], c-[]],
-    with_hosts([alpha],
-        ( supervised(Children, [strategy(Strategy)], S),
-          children(S, Children, Old),
-          Old = [_, B, _],
-          agent_dispose(B),
-          wait_until(( children(S, Children, New), New = [_, B1, _],
-                       B1 \== B ), 10),
-          findall(Name, ( nth(Name, Old, Id), nth(Name, New, Id) ), Kept) )).
+:- meta_predicate with_children(+, +, -, -, 0), quietly(+, 0).
 
-nth(a, [Id, _, _], Id).
-nth(b, [_, Id, _], Id).
-nth(c, [_, _, Id], Id).
+with_children(Children, More, S, Ids, Goal) :-
+    quietly([alpha], ( supervised(Children, More, S),
+                       children(S, Children, Ids),
+                       Goal )).
+
+quietly(Hosts, Goal) :-
+    with_hosts(Hosts, capturing(Goal, _)).
 
 :- begin_tests(supervisor).
 
-test(one_for_one, Kept == [a,c]) :-
-    capturing(kept(one_for_one, Kept), _).
-test(rest_for_one, Kept == [a]) :-
-    capturing(kept(rest_for_one, Kept), _).
-test(one_for_all, Kept == []) :-
-    capturing(kept(one_for_all, Kept), _).
+%   Kept are those that are the same agents after b has ended.
+
+test(strategy, [ forall(member(Strategy-Same, [ one_for_one-[a,c],
+                                                rest_for_one-[a],
+                                                one_for_all-[] ])),
+                 Kept == Same ]) :-
+    Children = [a-[], b-[], c-[]],
+    with_children(Children, [strategy(Strategy)], S, Old,
+        ( Old = [_, B, _],
+          agent_dispose(B),
+          wait_until(( children(S, Children, New), New = [_, B1, _],
+                       B1 \== B ), 10) )),
+    findall(Name, ( nth1(N, Old, Id), nth1(N, New, Id),
+                    nth1(N, Children, Name-_) ), Kept).
 test(restart_types, [forall(member(Type-Goal-Again,
                                    [ permanent-true-yes, transient-true-no,
                                      transient-dispose-yes,
                                      temporary-dispose-no ]))]) :-
     Children = [a-[restart(Type)]],
-    with_hosts([alpha],
-        capturing(
-            ( supervised(Children, [], S),
-              children(S, Children, [A]),
-              agent_send(A, Goal),
-              joined(A, _),
-              (   Again == yes
-              ->  wait_until(( children(S, Children, [B]), B \== A ), 10)
-              ;   wait_until(was_printed(informational,
-                                         typhon(log(_, _, down(a, _)))), 10),
-                  \+ children(S, Children, _)
-              ) ), _)).
+    with_children(Children, [], S, [A],
+        ( agent_send(A, Goal),
+          joined(A, _),
+          (   Again == yes
+          ->  wait_until(( children(S, Children, [B]), B \== A ), 10)
+          ;   wait_until(was_printed(informational,
+                                     typhon(log(_, _, down(a, _)))), 10),
+              \+ children(S, Children, _)
+          ) )).
 test(too_many_restarts, O == disposed) :-
     Children = [a-[], b-[]],
-    with_hosts([alpha],
-        capturing(
-            ( supervised(Children, [intensity(2, 60)], S),
-              children(S, Children, [A0,B]),
-              again(S, Children, A0, A1),
-              again(S, Children, A1, A2),
-              agent_dispose(A2),
-              joined(S, O),
-              joined(B, disposed) ), _)).
+    with_children(Children, [intensity(2, 60)], S, [A0,B],
+        ( again(S, Children, A0, A1),
+          again(S, Children, A1, A2),
+          agent_dispose(A2),
+          joined(S, O),
+          joined(B, disposed) )).
 
 again(S, Children, A0, A) :-
     agent_dispose(A0),
     wait_until(( children(S, Children, [A|_]), A \== A0 ), 10).
 
-test(stop, O == done) :-
-    Children = [a-[], b-[]],
-    with_hosts([alpha],
-        capturing(
-            ( supervised(Children, [], S),
-              children(S, Children, [A,B]),
-              agent_send(S, stop),
-              joined(S, O),
-              joined(A, disposed),
-              joined(B, disposed) ), _)).
-test(children_end_with_the_supervisor, [true(O1-O2 == disposed-disposed)]) :-
-    Children = [a-[], b-[]],
-    with_hosts([alpha],
-        capturing(
-            ( supervised(Children, [], S),
-              children(S, Children, [A,B]),
-              agent_dispose(S),
-              joined(A, O1),
-              joined(B, O2) ), _)).
+test(children_end_with_the_supervisor,
+     [ forall(member(End-Outcome, [ agent_send(S, stop)-done,
+                                    agent_dispose(S)-disposed ])),
+       O-O1-O2 == Outcome-disposed-disposed ]) :-
+    with_children([a-[], b-[]], [], S, [A,B],
+        ( call(End),
+          maplist(joined, [S,A,B], [O,O1,O2]) )).
 
 %   Where is the host on which a child starts.
 
@@ -118,32 +104,29 @@ test(places, [forall(member(Where-Begins,
                             [ here-alpha, on(gamma)-gamma,
                               least_loaded-gamma, tagged(big)-beta,
                               [tagged(none),on(nowhere),on(beta)]-beta,
-                              [on(beta),on(gamma)]-beta,
-                              [on(gamma),on(beta)]-gamma ]))]) :-
-    with_hosts([alpha,beta,gamma],
-        capturing(
-            ( link(alpha, beta), link(alpha, gamma),
-              remote(beta, leave(tag(big))),
-              worker(W),
-              agent_create(W, _, [host(beta)]),
-              supervised([a-[where(Where)]], [], S),
-              children(S, [a-[]], [A]),
-              agent_property(A, host(Host)),
-              address(Begins, Host) ), _)).
+                             [on(beta),on(gamma)]-beta,
+                             [on(gamma),on(beta)]-gamma ]))]) :-
+    quietly([alpha,beta,gamma],
+        ( link(alpha, beta), link(alpha, gamma),
+          remote(beta, leave(tag(big))),
+          worker(W),
+          agent_create(W, _, [host(beta)]),
+          supervised([a-[where(Where)]], [], S),
+          children(S, [a-[]], [A]),
+          agent_property(A, host(Host)),
+          address(Begins, Host) )).
 test(restart_is_retried_when_capacity_is_free) :-
-    with_hosts([alpha],
-        capturing(
-            ( worker(W),
-              agent_create(agents(supervisor), S,
-                           [facts([child(a, W, [where(on(beta))])])]),
-              wait_until(was_printed(informational,
-                                     typhon(log(_, _, not_started(a, _)))),
-                         10),
-              \+ children(S, [a-[]], _),
-              setup_call_cleanup(
-                  host_start(beta),
-                  wait_until(children(S, [a-[]], _), 10),
-                  host_stop(beta)) ), _)).
+    quietly([alpha],
+        ( worker(W),
+          agent_create(agents(supervisor), S,
+                       [facts([child(a, W, [where(on(beta))])])]),
+          wait_until(was_printed(informational,
+                                 typhon(log(_, _, not_started(a, _)))), 10),
+          \+ children(S, [a-[]], _),
+          setup_call_cleanup(
+              host_start(beta),
+              wait_until(children(S, [a-[]], _), 10),
+              host_stop(beta)) )).
 
 %   Ids are numbered as agents are created.
 
@@ -244,57 +227,49 @@ test(failed_child_is_kept_and_another_takes_its_name, Got == here) :-
               agent_send(a, leave(here)),
               wait_until(remote(alpha, sense(Got)), 10) ), _)).
 test(child_may_be_a_supervisor_itself) :-
-    with_hosts([alpha],
-        capturing(
-            ( worker(W),
-              supervised_by(self, [facts([child(leaf, W, [])])], Top),
-              wait_until(tree_of(Top, _, _), 10) ), _)).
+    worker(W),
+    quietly([alpha],
+        ( agent_create(agents(supervisor), Top,
+                       [facts([child(sub, self,
+                                     [facts([child(leaf, W, [])])])])]),
+          wait_until(tree_of(Top, _, _), 10) )).
 
 %   A tree: the child `sub` of the top is a supervisor of `leaf`.
 
-tree(Top, Sub, Leaf) :-
-    worker(W),
-    supervised_by(agents(supervisor),
-                  [facts([child(leaf, W, []), intensity(1, 60)])], Top),
-    wait_until(tree_of(Top, Sub, Leaf), 10).
+:- meta_predicate with_tree(-, -, -, 0).
 
-supervised_by(Program, Options, Top) :-
-    agent_create(agents(supervisor), Top,
-                 [facts([child(sub, Program, Options)])]).
+with_tree(Top, Sub, Leaf, Goal) :-
+    worker(W),
+    quietly([alpha],
+        ( agent_create(agents(supervisor), Top,
+                       [facts([child(sub, agents(supervisor),
+                                     [facts([ child(leaf, W, []),
+                                              intensity(1, 60) ])])])]),
+          wait_until(tree_of(Top, Sub, Leaf), 10),
+          Goal )).
 
 tree_of(Top, Sub, Leaf) :-
     children(Top, [sub-[]], [Sub]),
     catch(children(Sub, [leaf-[]], [Leaf]), error(_, _), fail).
 
-test(restart_of_a_leaf, Sub == Sub0) :-
-    with_hosts([alpha],
-        capturing(
-            ( tree(Top, Sub0, Leaf0),
-              agent_dispose(Leaf0),
-              wait_until(( tree_of(Top, Sub, Leaf), Leaf \== Leaf0 ), 10) ),
-            _)).
+%   The supervisor gives up at the second end of the leaf.
+
+test(a_leaf_is_restarted_then_its_supervisor) :-
+    with_tree(Top, Sub0, Leaf0,
+        ( agent_dispose(Leaf0),
+          wait_until(( tree_of(Top, Sub0, Leaf1), Leaf1 \== Leaf0 ), 10),
+          agent_dispose(Leaf1),
+          wait_until(( tree_of(Top, Sub, _), Sub \== Sub0 ), 10) )).
 test(restart_of_a_supervisor) :-
-    with_hosts([alpha],
-        capturing(
-            ( tree(Top, Sub0, Leaf0),
-              agent_dispose(Sub0),
-              joined(Leaf0, disposed),
-              wait_until(( tree_of(Top, Sub, _), Sub \== Sub0 ), 10) ), _)).
-test(a_supervisor_that_gives_up_is_restarted) :-
-    with_hosts([alpha],
-        capturing(
-            ( tree(Top, Sub0, Leaf0),
-              agent_dispose(Leaf0),
-              wait_until(( tree_of(Top, Sub0, Leaf1), Leaf1 \== Leaf0 ), 10),
-              agent_dispose(Leaf1),
-              wait_until(( tree_of(Top, Sub, _), Sub \== Sub0 ), 10) ), _)).
+    with_tree(Top, Sub0, Leaf0,
+        ( agent_dispose(Sub0),
+          joined(Leaf0, disposed),
+          wait_until(( tree_of(Top, Sub, _), Sub \== Sub0 ), 10) )).
 test(the_tree_ends_with_its_top, O-P == done-disposed) :-
-    with_hosts([alpha],
-        capturing(
-            ( tree(Top, _, Leaf),
-              agent_send(Top, stop),
-              joined(Top, O),
-              joined(Leaf, P) ), _)).
+    with_tree(Top, _, Leaf,
+        ( agent_send(Top, stop),
+          joined(Top, O),
+          joined(Leaf, P) )).
 
 :- end_tests(supervisor).
 
@@ -332,6 +307,13 @@ begun(H1, H2, H3, More) :-
                            intensity(100, 1)
                          | More ]) ]).
 
+on_standby(H3) :-
+    linked(H1, H2, H3),
+    begun(H1, H2, H3, [standby(H2)]),
+    wait_until(each_once([p1,p2,p3]), 20),
+    wait_until(count([p2], supervisor, 1), 10),
+    answers(p1).
+
 %   answers(+Peer): its supervisor has handled all that came before.
 
 answers(Peer) :-
@@ -355,21 +337,13 @@ test(a_process_dies) :-
             answers(p1),
             each_once([p1,p2]) )).
 test(process_of_the_supervisor_dies) :-
-    three(( linked(H1, H2, H3),
-            begun(H1, H2, H3, [standby(H2)]),
-            wait_until(each_once([p1,p2,p3]), 20),
-            wait_until(count([p2], supervisor, 1), 10),
-            answers(p1),
+    three(( on_standby(_),
             peer_kill(p1),
             wait_until(each_once([p2,p3]), 30),
             answers(p2),
             each_once([p2,p3]) )).
 test(home_of_the_supervisor_dies_while_it_is_away) :-
-    three(( linked(H1, H2, H3),
-            begun(H1, H2, H3, [standby(H2)]),
-            wait_until(each_once([p1,p2,p3]), 20),
-            wait_until(count([p2], supervisor, 1), 10),
-            answers(p1),
+    three(( on_standby(H3),
             supervisor_on(p1, S),
             agent_move(S, H3, [wait(5)]),
             answers(p3),
