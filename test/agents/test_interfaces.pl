@@ -13,12 +13,13 @@
 %   And the steps that doc/allocation.md names are in the files that it names.
 
 :- use_module('../lib/common').
+:- use_module('../lib/texts', [file_lines/2]).
 :- use_module(library(filesex), [directory_member/3]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(plunit)).
 :- use_module(library(solution_sequences), [distinct/2]).
 :- use_module(library(readutil),
-              [read_file_to_string/3, read_file_to_terms/3]).
+              [read_file_to_terms/3]).
 
 :- dynamic
     file_term/2,                % File, Term
@@ -70,8 +71,7 @@ included(File) :-
                 *******************************/
 
 header(File, Expects, Gives) :-
-    read_file_to_string(File, Text, [encoding(utf8)]),
-    split_string(Text, "\n", "", Lines),
+    file_lines(File, Lines),
     line("% Expects: ", Expects, Lines, Lines1),
     line("% Gives: ", Gives, Lines1, _).
 
@@ -182,8 +182,7 @@ crosses(Program, File, Other, PI) :-
 
 step(PIs, Files) :-
     project_file('doc/allocation.md', Document),
-    read_file_to_string(Document, Text, [encoding(utf8)]),
-    split_string(Text, "\n", "", Lines),
+    file_lines(Document, Lines),
     append(_, ["## The steps of the thesis"|More], Lines),
     append(Section, ["## Costs and negotiations"|_], More),
     !,

@@ -8,7 +8,9 @@
             fake_refusal/1,             % +Host
             fake_neighbours/1,          % +Hosts
             did/1,                      % -Acts
-            tuples/1                    % -Tuples
+            did_just/1,                 % +Acts
+            tuples/1,                   % -Tuples
+            just_tuples/1               % +Tuples
           ]).
 :- use_module(common, [project_file/2]).
 :- use_module(library(lists)).
@@ -187,12 +189,23 @@ fake_neighbours(Hosts) :-
     assertz(fake_host:neighbours(Hosts)).
 
 %!  did(-Acts) is det.
+%!  did_just(+Acts) is semidet.
 %!  tuples(-Tuples) is det.
+%!  just_tuples(+Tuples) is semidet.
 %
-%   The actions of the agent, in order, and the tuples of the host.
+%   The actions of the agent, in order, and the tuples of the host. Two fail if
+%   the list is another.
 
 did(Acts) :-
     findall(Act, fake_host:did(Act), Acts).
 
+did_just(Acts) :-
+    did(All),
+    All == Acts.
+
 tuples(Tuples) :-
     findall(Tuple, fake_host:tuple(Tuple), Tuples).
+
+just_tuples(Tuples) :-
+    tuples(All),
+    All == Tuples.

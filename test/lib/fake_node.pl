@@ -5,6 +5,9 @@
             at/1,                       % +Time
             sent/1,                     % -Pairs
             bodies/1,                   % -Pairs
+            sends/1,                    % ?Pair
+            sends_no/1,                 % ?Pair
+            says/1,                     % ?Pair
             logged/1,                   % -What
             fact/1,                     % ?Fact
             job/1,                      % -Job
@@ -12,7 +15,7 @@
             announced/3                 % +Details, +Round, -Announcement
           ]).
 :- use_module(fake_agent).
-:- use_module(library(lists), [append/2, member/2]).
+:- use_module(library(lists), [append/2, member/2, memberchk/2]).
 
 /** <module> One node of an auction, alone
 
@@ -60,11 +63,10 @@ at(Time) :-
 
 %!  sent(-Pairs) is det.
 %!  bodies(-Pairs) is det.
-%!  logged(-What:list) is det.
 %
 %   Messages of the node since the last call: To-Load, a host and the load of
 %   the link to it, or robot-Message. With bodies/1 a flooded Load is shown as
-%   its body. And the events that it has logged.
+%   its body.
 
 sent(Pairs) :-
     findall(To-Load,
@@ -83,6 +85,27 @@ bodies(Bodies) :-
 load_body(flood(_, Body), Body) :- !.
 load_body(only(Body), only(Body)) :- !.
 load_body(Message, Message).
+
+%!  sends(?Pair) is semidet.
+%!  sends_no(?Pair) is semidet.
+%!  says(?Pair) is semidet.
+%
+%   Pair is, or is not, one of sent/1, or is one of bodies/1.
+
+sends(Pair) :-
+    sent(Pairs),
+    memberchk(Pair, Pairs).
+
+sends_no(Pair) :-
+    \+ sends(Pair).
+
+says(Pair) :-
+    bodies(Pairs),
+    memberchk(Pair, Pairs).
+
+%!  logged(-What:list) is det.
+%
+%   The events that the node has logged since the last call.
 
 logged(What) :-
     findall(W, retract(fake_host:did(log(W))), What).

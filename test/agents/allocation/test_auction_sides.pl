@@ -16,29 +16,30 @@ Contractors of robots and auctioneers of tasks, on a node of Murdoch.
 
 :- begin_tests(auction_contractor).
 
-%   A node of Murdoch that has bid.
+%   A node of Murdoch that has bid, that has won, that has reserved its robot.
 
-bidder(Facts) :-
+bidder(Facts, Job) :-
     node(murdoch, Facts),
     announced([], 1, Announce),
     link(a, 0, flood(77, Announce)),
     job(Job),
     receives(answer(ref(Job, 1, 1), bid(7)), robot).
 
-winner(Facts) :-
-    bidder(Facts),
-    job(Job),
+winner(Facts, Job) :-
+    bidder(Facts, Job),
     link(a, 0, flood(78, award(Job, 1, [here-1, x-1]))).
 
-reserved(Facts) :-
-    winner(Facts),
-    job(Job),
+reserved(Facts, Job) :-
+    winner(Facts, Job),
     receives(answer(ref(Job, 1, 1), reserved), robot),
     sent(_).
 
+other_auction(Details) :-
+    offer(Details, Offer),
+    link(b, 0, flood(90, announce(job(other, 5), 1, Offer))).
+
 test(contractor_queries_its_robot_and_bids) :-
-    bidder([]),
-    job(Job),
+    bidder([], Job),
     bodies(Bodies),
     memberchk(robot-ask(ref(Job, 1, 1), need(t, [push], [])), Bodies),
     findall(To, member(To-owner(Job, bids(1, [here-[1-7]])), Bodies),
@@ -53,94 +54,66 @@ test(refusing_robot_does_not_bid) :-
     sent([]),
     \+ fact(hold(_, _, _, _)).
 test(bids_for_one_auction_at_a_time) :-
-    bidder([]),
+    bidder([], _),
     sent(_),
-    offer([], Offer),
-    link(b, 0, flood(90, announce(job(other, 5), 1, Offer))),
-    sent(Sent),
-    \+ memberchk(robot-_, Sent).
+    other_auction([]),
+    sends_no(robot-_).
 test(more_urgent_auction_is_preferred) :-
-    bidder([]),
+    bidder([], _),
     sent(_),
-    offer([priority(2)], Offer),
-    link(b, 0, flood(90, announce(job(other, 5), 1, Offer))),
-    sent(Sent),
-    memberchk(robot-ask(ref(job(other, 5), 1, 1), _), Sent),
+    other_auction([priority(2)]),
+    sends(robot-ask(ref(job(other, 5), 1, 1), _)),
     job(Job),
     link(a, 0, flood(78, award(Job, 1, [here-1]))),
-    bodies(Bodies),
-    memberchk(a-owner(Job, report(1, here, refused)), Bodies).
+    says(a-owner(Job, report(1, here, refused))).
 test(bids_again_after_a_lost_auction) :-
-    bidder([]),
-    job(Job),
+    bidder([], Job),
     link(a, 0, flood(78, award(Job, 1, [x-1, y-1]))),
     sent(_),
-    offer([], Offer),
-    link(b, 0, flood(90, announce(job(other, 5), 1, Offer))),
-    sent(Sent),
-    memberchk(robot-ask(_, _), Sent).
+    other_auction([]),
+    sends(robot-ask(_, _)).
 test(bids_again_after_the_timeout) :-
-    bidder([setting(answer, 5)]),
+    bidder([setting(answer, 5)], _),
     sent(_),
     at(15),                             % closed at 10
-    offer([], Offer),
-    link(b, 0, flood(90, announce(job(other, 5), 1, Offer))),
-    sent(Sent),
-    memberchk(robot-ask(_, _), Sent).
+    other_auction([]),
+    sends(robot-ask(_, _)).
 test(winner_reserves_its_robot) :-
-    winner([]),
-    job(Job),
-    bodies(Bodies),
-    memberchk(robot-reserve(ref(Job, 1, 1), boss, need(t, [push], [])),
-              Bodies),
+    winner([], Job),
+    says(robot-reserve(ref(Job, 1, 1), boss, need(t, [push], []))),
     receives(answer(ref(Job, 1, 1), reserved), robot),
-    bodies(Then),
-    memberchk(b-owner(Job, report(1, here, reserved)), Then).
+    says(b-owner(Job, report(1, here, reserved))).
 test(winner_with_a_reserved_robot_refuses) :-
-    winner([]),
+    winner([], Job),
     sent(_),
-    job(Job),
     receives(answer(ref(Job, 1, 1), refused(reserved)), robot),
-    bodies(Bodies),
-    memberchk(a-owner(Job, report(1, here, refused)), Bodies),
+    says(a-owner(Job, report(1, here, refused))),
     \+ fact(contract(_, _, _, _, _, _)).
 test(executes_and_reports) :-
-    reserved([]),
-    job(Job),
+    reserved([], Job),
     link(a, 0, flood(79, start(Job))),
-    bodies(Bodies),
-    memberchk(robot-start(ref(Job, 1, 1), sleep(5)), Bodies),
+    says(robot-start(ref(Job, 1, 1), sleep(5))),
     link(b, 0, flood(80, start(Job))),
-    sent(Again),
-    \+ memberchk(robot-start(_, _), Again),
+    sends_no(robot-start(_, _)),
     receives(done(ref(Job, 1, 1)), robot),
-    bodies(Then),
-    memberchk(a-owner(Job, report(1, here, done)), Then).
+    says(a-owner(Job, report(1, here, done))).
 test(releases_its_robot_once) :-
-    reserved([]),
-    job(Job),
+    reserved([], Job),
     link(a, 0, flood(79, release(Job, 1, all))),
-    sent(Sent),
-    memberchk(robot-release(ref(Job, 1, 1)), Sent),
+    sends(robot-release(ref(Job, 1, 1))),
     link(a, 0, flood(80, release(Job, 1, all))),
-    sent(Then),
-    \+ memberchk(robot-release(_), Then).
+    sends_no(robot-release(_)).
 test(release_of_others_is_ignored) :-
-    reserved([]),
-    job(Job),
+    reserved([], Job),
     link(a, 0, flood(79, release(Job, 1, [x, y]))),
-    sent(Sent),
-    \+ memberchk(robot-release(_), Sent).
+    sends_no(robot-release(_)).
 test(award_after_the_release_is_void) :-
-    bidder([]),
-    job(Job),
+    bidder([], Job),
     link(a, 0, flood(79, release(Job, 1, all))),
     link(a, 0, flood(78, award(Job, 1, [here-1]))),
-    sent(Sent),
-    \+ memberchk(robot-reserve(_, _, _), Sent).
+    sends_no(robot-reserve(_, _, _)).
 test(a_late_release_does_not_end_the_next_round) :-
-    bidder([]),
-    job(Job),
+    bidder([], Job),
     announced([], 2, Announce),
     fake_agent:retractall(hold(_, _, _, _)),
     link(a, 0, flood(80, Announce)),
@@ -149,45 +122,35 @@ test(a_late_release_does_not_end_the_next_round) :-
     receives(answer(ref(Job, 2, 1), reserved), robot),
     sent(_),
     link(a, 0, flood(82, release(Job, 1, all))),
-    sent(Sent),
-    \+ memberchk(robot-release(_), Sent).
+    sends_no(robot-release(_)).
 test(a_contract_that_is_not_renewed_lapses) :-
-    reserved([setting(contract, 60)]),
-    job(Job),
+    reserved([setting(contract, 60)], Job),
     at(59),
     sent([]),
     at(60),
-    sent(Sent),
-    memberchk(robot-release(ref(Job, 1, 1)), Sent),
+    sends(robot-release(ref(Job, 1, 1))),
     \+ fact(contract(_, _, _, _, _, _)).
 test(renewed_contract_does_not_lapse) :-
-    reserved([setting(contract, 60)]),
-    job(Job),
+    reserved([setting(contract, 60)], Job),
     at(50),
     link(a, 50, flood(79, renew(Job, reserved))),
-    bodies(Bodies),
-    memberchk(a-owner(Job, report(1, here, reserved)), Bodies),
+    says(a-owner(Job, report(1, here, reserved))),
     at(109),
     sent([]),
     at(110),
-    sent(Sent),
-    memberchk(robot-release(_), Sent).
+    sends(robot-release(_)).
 test(missed_start_is_repeated_by_a_renewal) :-
-    reserved([]),
-    job(Job),
+    reserved([], Job),
     link(a, 0, flood(79, renew(Job, executing))),
     bodies(Bodies),
     memberchk(robot-start(_, _), Bodies),
     memberchk(a-owner(Job, report(1, here, executing)), Bodies).
 test(a_lost_robot_is_reported) :-
-    reserved([]),
-    job(Job),
+    reserved([], Job),
     receives(lost(ref(Job, 1, 1), preempted), robot),
-    bodies(Bodies),
-    memberchk(a-owner(Job, report(1, here, lost(preempted))), Bodies).
+    says(a-owner(Job, report(1, here, lost(preempted)))).
 test(robot_learns_whether_it_is_still_needed) :-
-    reserved([]),
-    job(Job),
+    reserved([], Job),
     receives(still(ref(Job, 1, 1)), robot),
     receives(still(ref(other, 1, 1)), robot),
     sent(Sent),
@@ -230,10 +193,6 @@ executing(Job) :-
     report(Job, 1, z, reserved),
     sent(_).
 
-said(To, Body) :-
-    bodies(Bodies),
-    memberchk(To-Body, Bodies).
-
 silent :-
     bodies(Bodies),
     \+ ( member(_-Body, Bodies), Body \= owner(_, _) ).
@@ -249,7 +208,7 @@ test(announces_to_all) :-
 test(lowest_cost_wins) :-
     auctioneer([], Job),
     award(Job),
-    said(a, award(Job, 1, Winners)),
+    says(a-award(Job, 1, Winners)),
     Winners == [y-1, z-1].
 test(first_hosts_by_name_win_at_equal_costs, [Winners == [x-1, y-1]]) :-
     auctioneer([], Job),
@@ -262,7 +221,7 @@ test(second_bid_of_a_host_is_ignored) :-
     bid(Job, 1, x, 5), bid(Job, 1, x, 1), bid(Job, 1, x, 0),
     sent(_),
     at(10),
-    \+ said(a, award(_, _, _)).
+    \+ says(a-award(_, _, _)).
 test(two_teams) :-
     node(murdoch, [setting(window, 10)]),
     receives(post(task(t, [1-[push], 1-[lift]], [])), user),
@@ -271,7 +230,7 @@ test(two_teams) :-
     deliver(Job, bids(1, [y-[2-9]])),
     sent(_),
     at(10),
-    said(a, award(Job, 1, Winners)),
+    says(a-award(Job, 1, Winners)),
     Winners == [x-1, y-2].
 test(starts_when_all_winners_have_answered) :-
     auctioneer([], Job),
@@ -280,7 +239,7 @@ test(starts_when_all_winners_have_answered) :-
     sent(_),
     logged(_),
     report(Job, 1, z, reserved),
-    said(a, start(Job)),
+    says(a-start(Job)),
     logged([allocated(t, Robots)]),
     msort(Robots, [y, z]).
 test(completes_and_releases_when_all_winners_are_done) :-
@@ -290,7 +249,7 @@ test(completes_and_releases_when_all_winners_are_done) :-
     report(Job, 1, y, done),
     silent,
     report(Job, 1, z, done),
-    said(b, release(Job, 1, all)),
+    says(b-release(Job, 1, all)),
     logged([completed(t)]),
     \+ fact(job(_, _, _, _, _, _)),
     report(Job, 1, z, done),            % a second report
@@ -308,7 +267,7 @@ test(too_few_bids_release_and_back_off) :-
     bid(Job, 1, x, 5),
     sent(_), logged(_),
     at(10),
-    said(c, release(Job, 1, all)),
+    says(c-release(Job, 1, all)),
     logged([backoff(Interval)]),
     Interval >= 4, Interval =< 12,      % 4 + [0, 8]
     Early is 9.99 + Interval,
@@ -316,7 +275,7 @@ test(too_few_bids_release_and_back_off) :-
     silent,
     Then is 10.01 + Interval,
     at(Then),
-    said(a, announce(Job, 2, _)).
+    says(a-announce(Job, 2, _)).
 test(without_bids_nothing_is_released) :-
     auctioneer([], _),
     sent(_), logged(_),
@@ -363,14 +322,14 @@ test(refused_award_is_auctioned_again) :-
     report(Job, 1, y, reserved),
     sent(_),
     report(Job, 1, z, refused),
-    said(a, announce(Job, 2, offer(_, _, Places, _, _))),
+    says(a-announce(Job, 2, offer(_, _, Places, _, _))),
     Places == [(1-[push])-1],
     bid(Job, 2, x, 9),
     sent(_),
     at(20),
-    said(a, award(Job, 2, [x-1])),
+    says(a-award(Job, 2, [x-1])),
     report(Job, 2, x, reserved),
-    said(a, start(Job)).
+    says(a-start(Job)).
 test(silent_winner_is_released_and_replaced) :-
     auctioneer([], Job),
     award(Job),
@@ -381,7 +340,7 @@ test(silent_winner_is_released_and_replaced) :-
     memberchk(a-release(Job, 1, [z]), Bodies),
     memberchk(a-announce(Job, 2, _), Bodies),
     report(Job, 1, z, reserved),        % too late
-    said(a, release(Job, 1, [z])).
+    says(a-release(Job, 1, [z])).
 test(backs_off_after_some_rounds) :-
     auctioneer([setting(tries, 2)], Job),
     award(Job),
@@ -391,7 +350,7 @@ test(backs_off_after_some_rounds) :-
     at(20),
     sent(_), logged(_),
     report(Job, 2, x, refused),
-    said(a, release(Job, 2, all)),
+    says(a-release(Job, 2, all)),
     logged([backoff(_)]),
     \+ fact(member(_, _, _, _, _, _)).
 test(robot_lost_during_execution_is_replaced) :-
@@ -399,12 +358,12 @@ test(robot_lost_during_execution_is_replaced) :-
     executing(Job),
     report(Job, 1, y, done),
     report(Job, 1, z, lost(failed)),
-    said(a, announce(Job, 2, _)),
+    says(a-announce(Job, 2, _)),
     bid(Job, 2, x, 9),
     at(25),
     sent(_), logged(_),
     report(Job, 2, x, reserved),
-    said(a, start(Job)),
+    says(a-start(Job)),
     report(Job, 2, x, done),
     logged([completed(t)]).
 test(task_of_a_lost_robot_stays_done) :-
@@ -422,11 +381,11 @@ test(contracts_are_renewed) :-
     auctioneer([setting(renew, 20)], Job),
     executing(Job),
     at(30),
-    said(a, renew(Job, executing)),
+    says(a-renew(Job, executing)),
     report(Job, 1, y, executing), report(Job, 1, z, executing),
     sent(_),
     at(50),
-    said(a, renew(Job, executing)).
+    says(a-renew(Job, executing)).
 test(contractor_that_misses_renewals_is_lost) :-
     auctioneer([setting(renew, 20)], Job),
     executing(Job),
@@ -443,7 +402,7 @@ test(a_missed_deadline_releases_all) :-
     executing(Job),
     logged(_),
     at(25),
-    said(a, release(Job, 1, all)),
+    says(a-release(Job, 1, all)),
     logged([missed(t, 25)]),
     \+ fact(job(_, _, _, _, _, _)),
     at(500),

@@ -1,5 +1,6 @@
 :- module(test_learning_network, []).
 :- use_module('../../lib/common').
+:- use_module('../../lib/texts', [write_file/3]).
 :- use_module('../../lib/networks').
 :- use_module('../../lib/event_log', [logged/2]).
 
@@ -244,11 +245,8 @@ to_idle_and_back(Agents, File, Dir) :-
     forall(member(Agent, Agents), planned(File, Agent)).
 
 write_idle(File) :-
-    setup_call_cleanup(
-        open(File, write, Out),
-        format(Out, ':- payload(idle, [provides([plan/3, better/2])]).~n\c
-                     plan(_, _, []).~nbetter(_, _) :- fail.~n', []),
-        close(Out)).
+    write_file(File, ':- payload(idle, [provides([plan/3, better/2])]).~n\c
+                      plan(_, _, []).~nbetter(_, _) :- fail.~n', []).
 
 %   The last Count executions had no plan; the last one had.
 

@@ -140,15 +140,13 @@ test(joins_and_waits_for_its_turn) :-
     fake_mail(q-turn(2)),
     fake_agent:await_turn(Length),
     Length == 2,
-    did(Acts),
-    Acts == [send(q, join)].
+    did_just([send(q, join)]).
 test(dies_in_the_queue) :-
     member_of(10, 3, [setting(tick, 2)]),
     catch(fake_agent:await_turn(_), disposed, true),
     fake_host:time(Time),
     Time =:= 8,                         % 3 ticks, and one for the answer
-    did(Acts),
-    Acts == [send(q, join), log(state(death)), send(q, quit)].
+    did_just([send(q, join), log(state(death)), send(q, quit)]).
 test(turn_may_be_in_flight_to_a_dying_agent) :-
     member_of(10, 0, []),
     fake_mail(q-gone),
@@ -166,8 +164,7 @@ test(a_turn_costs_a_tick) :-
     Lifetime =:= 9,
     fake_host:time(Time),
     Time =:= 1,
-    did(Acts),
-    Acts == [send(q, leave), move(next)].
+    did_just([send(q, leave), move(next)]).
 test(the_first_agent_never_dies, Lifetime == inf) :-
     member_of(10, inf, []),
     fake_agent:depart,
@@ -178,8 +175,7 @@ test(dies_during_its_turn) :-
     catch(fake_agent:depart, disposed, true),
     fake_host:time(Time),
     close_to(Time, 0.4),
-    did(Acts),
-    Acts == [log(state(death)), send(q, quit)].
+    did_just([log(state(death)), send(q, quit)]).
 test(refused_agent_leaves_the_head, Acts == [send(q, leave)]) :-
     member_of(10, 10, []),
     fake_refusal(next),
@@ -191,16 +187,14 @@ test(reward) :-
     account(Resource, Lifetime),
     close_to(Resource, 25.1947734041),
     Lifetime =:= 17,
-    did(Acts),
-    Acts == [log(resource(Resource))].
+    did_just([log(resource(Resource))]).
 test(no_reward) :-
     member_of(10, 10, []),
     fake_agent:gain(0, 4),
     account(Resource, Lifetime),
     close_to(Resource, 10.0904837418),
     Lifetime =:= 10,
-    did(Acts),
-    Acts == [].
+    did_just([]).
 test(clones_after_a_reward, Role-Acts == parent-[log(state(replicate)),
                                                  log(resource(15))]) :-
     member_of(25, 10, []),
@@ -247,8 +241,7 @@ test(resources_given_to_a_clone) :-
     account(Resource, Lifetime),
     Resource-Lifetime == 10-8,
     \+ fake_agent:'$memory'(_),
-    did(Acts),
-    Acts == [log(state(replicate)), log(cloned)].
+    did_just([log(state(replicate)), log(cloned)]).
 
 :- end_tests(controller).
 

@@ -34,7 +34,7 @@ children(S, Children, Ids) :-
     length(Children, Count),
     length(Ids, Count).
 
-%   with_children(+Children, +More, -Supervisor, -Ids, :Goal): on the host alpha;
+%   with_children(+Children, +More, -S, -Ids, :Goal): on the host alpha;
 %   messages are not printed.
 
 :- meta_predicate with_children(+, +, -, -, 0), quietly(+, 0).

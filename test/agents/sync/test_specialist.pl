@@ -143,8 +143,7 @@ test(first_stimulus_excites) :-                                     % S2
     mind(Mood, Psi, History),
     Mood-History == excited-[8],
     Psi =:= 100,                        % one value: no dispersion yet
-    did(Acts),
-    Acts == [log(state(excited)), log(psi(Psi))].
+    did_just([log(state(excited)), log(psi(Psi))]).
 test(positive) :-                                                   % S2
     done(floor, 8, Floor),
     excited([3], [worker(house, w), Floor]),
@@ -192,16 +191,13 @@ test(active_specialist_executes) :-                                         % S4
     fake_at(9),
     fake_agent:visit(Reward),
     Reward == 1,
-    tuples(Tuples),
-    Tuples == [Floor, task(house, walls, executing, 9)],
-    did(Acts),
-    Acts == [send(w, execute(walls, build))].
+    just_tuples([Floor, task(house, walls, executing, 9)]),
+    did_just([send(w, execute(walls, build))]).
 test(failed_task_is_executed_again) :-
     done(floor, 1, Floor),
     active([worker(house, w), Floor, task(house, walls, failed(atomic), 3)]),
     fake_agent:visit(1),
-    tuples(Tuples),
-    Tuples == [Floor, task(house, walls, executing, 0)].
+    just_tuples([Floor, task(house, walls, executing, 0)]).
 test(waits_for_the_previous_task, Reward-Tuples == 0-[worker(house, w)]) :-
     active([worker(house, w)]),
     fake_agent:visit(Reward),

@@ -185,35 +185,28 @@ test(services_a_host_that_lacks_the_task) :-
     fake_host:leave(task(house, 1, completed, 5)),
     fake_agent:keep(2, drive(50, [10])),
     fake_agent:visit(2),
-    tuples(Tuples),
-    Tuples == [ task(house, 1, completed, 5),
-                plan(house, 1, [1-floor, 2-walls, 3-ceiling]),
-                task(house, 2, executing, 7)
-              ],
-    did(Acts),
-    Acts == [send(w, execute(2, walls)), log(reward(2, 55, 5))],
+    just_tuples([ task(house, 1, completed, 5),
+                  plan(house, 1, [1-floor, 2-walls, 3-ceiling]),
+                  task(house, 2, executing, 7)
+                ]),
+    did_just([send(w, execute(2, walls)), log(reward(2, 55, 5))]),
     drive(2, 55, [10, 5]).
 test(leaves_an_executing_host_alone) :-
     traveller([], [task(house, 1, executing, 5)]),
     fake_agent:visit(1),
-    did(Acts),
-    Acts == [],
+    did_just([]),
     drive(1, 100, [15]).
 test(leaves_the_worker_of_another_sequence_alone) :-
     traveller([], [worker(garden, w)]),
     fake_agent:visit(1),
-    tuples(Tuples),
-    Tuples == [worker(garden, w)],
-    did(Acts),
-    Acts == [],
+    just_tuples([worker(garden, w)]),
+    did_just([]),
     drive(1, 100, [15]).
 test(is_penalised_where_the_task_is_completed) :-
     traveller([], [worker(house, w), task(house, 1, completed, 5)]),
     fake_agent:visit(1),
-    tuples(Tuples),
-    Tuples == [task(house, 1, completed, 5), worker(house, w)],
-    did(Acts),
-    Acts == [log(penalty(1, 84.5, 15.5))],
+    just_tuples([task(house, 1, completed, 5), worker(house, w)]),
+    did_just([log(penalty(1, 84.5, 15.5))]),
     drive(1, 84.5, [15, 15.5]).
 test(algorithm_2, Moves == 111) :-      % gives up what is done everywhere
     host_with([1, 2, 3], [], Tuples),
@@ -273,8 +266,7 @@ test(task_waits_for_a_task_of_another_sequence) :-
     pooled([after(1, garden, dig)], [plan(garden, 1, [])]),
     fake_agent:keep(1, drive(50, [10])),
     fake_agent:visit(1),
-    did(Acts),
-    Acts == [log(reward(1, 55, 5))],
+    did_just([log(reward(1, 55, 5))]),
     fake_host:tuple(worker(robots, w)).
 test(completed_task_releases_the_waiting_one) :-
     pooled([after(1, garden, dig)],
@@ -313,11 +305,10 @@ test(algorithm_2_line_29) :-            % as in Figure 5.3
     exhaust(2),
     fake_agent:keep(3, drive(40, [15, 10])),
     fake_agent:visit(3),
-    did(Acts),
-    Acts == [ log(revived(2, 10)),
-              send(w, execute(2, walls)),
-              log(reward(2, 11.5, 1.5))
-            ],
+    did_just([ log(revived(2, 10)),
+               send(w, execute(2, walls)),
+               log(reward(2, 11.5, 1.5))
+             ]),
     drive(2, 11.5, [15, 1.5]),
     drive(3, 40, [15, 10]),
     fake_agent:current(Task),
@@ -333,8 +324,7 @@ test(later_ones_do_not_matter_yet) :-
     host_with([1], [], Tuples),
     traveller([], Tuples),
     fake_agent:visit(1),
-    did(Acts),
-    Acts == [log(penalty(1, 84.5, 15.5))].
+    did_just([log(penalty(1, 84.5, 15.5))]).
 test(mark_of_an_atomic_failure_is_removed) :-
     host_with([1, 3], [task(house, 2, failed(atomic), 6)], Tuples),
     traveller([], Tuples),
@@ -379,8 +369,7 @@ test(cascaded_failure_is_healed_from_its_first_task_on) :-
     fake_agent:visit(3),
     potentials(Ps),
     Ps == [100, 100, 100],
-    did(Acts),
-    Acts == [log(revived(1, 100))],
+    did_just([log(revived(1, 100))]),
     fake_host:tuple(worker(house, _)),
     \+ fake_host:tuple(task(_, _, executing, _)).
 test(known_cascaded_failure_is_healed_task_by_task) :-
@@ -423,10 +412,8 @@ test(newer_plan_is_adopted) :-
     findall(Task-P, drive(Task, P, _), Drives0),
     msort(Drives0, Drives),
     Drives == [1-0, 3-100, door-100],
-    tuples(Tuples),
-    Tuples == [New],
-    did(Acts),
-    Acts == [log(adopted(2))],
+    just_tuples([New]),
+    did_just([log(adopted(2))]),
     fake_agent:current(Task),
     Task == door.
 test(older_plan_is_replaced, Tuples == [plan(house, 1, [1-floor, 2-walls,
@@ -446,8 +433,7 @@ test(plan_of_another_sequence_is_left_alone) :-
     fake_agent:compare_plans,
     agent_plan(plan(Sequence, _, _)),
     Sequence == house,
-    tuples(Tuples),
-    Tuples == [plan(garden, 2, [dig-dig])].
+    just_tuples([plan(garden, 2, [dig-dig])]).
 test(new_code_of_a_task_is_handed_over) :-
     traveller([], [plan(house, 2, [1-better_floor]), worker(house, w)]),
     fake_agent:compare_plans,
@@ -480,32 +466,26 @@ test(announces_that_it_is_free, Tuples == [worker(house, me)]) :-
 test(executes) :-
     worker([task(house, 1, executing, 5)]),
     fake_agent:on_message(someone, execute(1, leave(tile))),
-    tuples(Tuples),
-    Tuples == [ tile, task(house, 1, completed, 7), worker(house, me) ],
-    did(Acts),
-    Acts == [log(executing(house, 1)), log(completed(house, 1))].
+    just_tuples([ tile, task(house, 1, completed, 7), worker(house, me) ]),
+    did_just([log(executing(house, 1)), log(completed(house, 1))]).
 test(task_that_raises_has_failed) :-
     worker([task(house, 1, executing, 5)]),
     fake_agent:on_message(someone, execute(1, atom_length(_, _))),
-    tuples(Tuples),
-    Tuples == [task(house, 1, failed(atomic), 7), worker(house, me)],
-    did(Acts),
-    Acts == [ log(executing(house, 1)),
-              log(raised(house, 1, instantiation_error)),
-              log(failed(house, 1))
-            ].
+    just_tuples([task(house, 1, failed(atomic), 7), worker(house, me)]),
+    did_just([ log(executing(house, 1)),
+               log(raised(house, 1, instantiation_error)),
+               log(failed(house, 1))
+             ]).
 test(any_raised_term_is_a_failure) :-
     worker([task(house, 1, executing, 5)]),
     fake_agent:on_message(someone, execute(1, throw(hammer))),
-    tuples(Tuples),
-    Tuples == [task(house, 1, failed(atomic), 7), worker(house, me)],
+    just_tuples([task(house, 1, failed(atomic), 7), worker(house, me)]),
     did(Acts),
     memberchk(log(raised(house, 1, hammer)), Acts).
 test(task_that_fails_has_failed) :-
     worker([task(house, 1, executing, 5)]),
     fake_agent:on_message(someone, execute(1, fail)),
-    tuples(Tuples),
-    Tuples == [task(house, 1, failed(atomic), 7), worker(house, me)].
+    just_tuples([task(house, 1, failed(atomic), 7), worker(house, me)]).
 test(waits_twice_as_long_after_each_failure_until_one_succeeds) :-
     worker([]),
     maplist(seconds_of, [fail, fail, fail, true, fail], Seconds),
@@ -519,10 +499,8 @@ test(waits_for_32_seconds_at_most) :-
 test(task_failed_from_outside_meanwhile) :-
     worker([task(house, 1, failed(cascaded(1)), 6)]),
     fake_agent:on_message(someone, execute(1, true)),
-    tuples(Tuples),
-    Tuples == [task(house, 1, failed(cascaded(1)), 6), worker(house, me)],
-    did(Acts),
-    Acts == [log(executing(house, 1))].
+    just_tuples([task(house, 1, failed(cascaded(1)), 6), worker(house, me)]),
+    did_just([log(executing(house, 1))]).
 
 %   The time for which the worker is busy after its task.
 

@@ -1,5 +1,6 @@
 :- module(test_sync_network, []).
 :- use_module('../../lib/common').
+:- use_module('../../lib/texts', [file_lines/2]).
 :- use_module('../../lib/networks').
 :- use_module(library(plunit)).
 :- use_module(library(aggregate), [aggregate_all/3]).
@@ -106,8 +107,7 @@ history(Events, Host, History) :-
 
 logged(Sequence, Length, Events) :-
     world(_, _, File),
-    read_file_to_string(File, Text, [encoding(utf8)]),
-    split_string(Text, "\n", "", Lines0),
+    file_lines(File, Lines0),
     append(Lines, [_], Lines0),         % what is just being written
     !,
     findall(Event,
