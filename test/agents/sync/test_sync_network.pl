@@ -126,6 +126,17 @@ logged_task(executing(Sequence, Task), Sequence, r(Task)).
 logged_task(completed(Sequence, Task), Sequence, c(Task)).
 logged_task(failed(Sequence, Task), Sequence, f(Task)).
 
+%   all_executed(+Sequence, +Names): each host did them in order, once.
+
+all_executed(Sequence, Names) :-
+    hosts(Hosts),
+    length(Hosts, Count),
+    executed(Names, History),
+    length(History, Length),
+    Total is Count*Length,
+    histories(Sequence, Total, Histories),
+    maplist(==(History), Histories).
+
 %   executed(+Names, -History): of a host that executed them in order.
 
 executed(Names, History) :-
@@ -164,15 +175,31 @@ circle(AfterA, AfterB,
          sequence(b, [], [1-true, 2-true], [after(AfterB)])
        ]).
 
+%   wrong(?What, +Hosts, -Goal, -Formal): the error that Goal raises.
+
+wrong(tasks_that_wait_in_a_circle, _, sequences_start(Sequences, [], _),
+      domain_error(order_of_tasks, [a:1, a:2, b:1])) :-
+    circle([2-(b:1)], [1-(a:2)], Sequences).
+wrong(no_such_task_to_wait_for, _, sequences_start(Sequences, [], _),
+      existence_error(task, b:7)) :-
+    circle([2-(b:7)], [], Sequences).
+wrong(unknown_sequence, Hosts, sequence_change(nothing, Hosts, [1-true]),
+      existence_error(sequence, nothing)).
+wrong(two_tasks_of_one_name, Hosts,
+      sequence_start(twice, Hosts, [1-true, 1-fail], [], _),
+      domain_error(distinct_tasks, [1, 1])).
+wrong(Setting, Hosts,
+      sequence_start(odd, Hosts, [1-true], [settings([Setting])], _),
+      domain_error(setting, Setting)) :-
+    member(Setting, [delta-0, strategy-_, hurry-1]).
+
 :- begin_tests(sync_network, [ setup(world_start), cleanup(world_end) ]).
 
 test(in_order_and_in_step) :-
     tasks([1, 2, 3], Tasks),
     start(plain, Tasks, Agents),
     all_end(Agents),
-    histories(plain, 36, Histories),
-    executed([1, 2, 3], History),
-    all_same(Histories, History),
+    all_executed(plain, [1, 2, 3]),
     logged(plain, 36, Events),
     \+ overlap(Events, [1, 2, 3]).
 test(only_on_the_hosts_named) :-
@@ -190,15 +217,11 @@ test(two_sequences_at_once) :-
     tasks([a, b, c], Tasks),
     start(fast, Tasks, Agents2),
     all_end(Agents2),                   % while `slow` holds its workers
-    histories(fast, 36, Fast),
-    executed([a, b, c], H2),
-    all_same(Fast, H2),
+    all_executed(fast, [a, b, c]),
     all_have(slow, gate, executing),
     open_gates,
     all_end(Agents1),
-    histories(slow, 24, Slow),
-    executed([1, gate], H1),
-    all_same(Slow, H1).
+    all_executed(slow, [1, gate]).
 test(busy_worker_of_a_pool_is_not_doubled, Before == After) :-
     hosts([A|_]),
     sequence_start(first, [A], [1-true], [agents(0), pool(crew)], []),
@@ -206,20 +229,11 @@ test(busy_worker_of_a_pool_is_not_doubled, Before == After) :-
     remote(A, ( take(worker(crew, Worker)), host_load(Before) )),
     sequence_start(second, [A], [1-true], [agents(0), pool(crew)], []),
     remote(A, ( host_load(After), leave(worker(crew, Worker)) )).
-test(tasks_that_wait_in_a_circle,
-     error(domain_error(order_of_tasks, [a:1, a:2, b:1]))) :-
-    circle([2-(b:1)], [1-(a:2)], Sequences),
-    sequences_start(Sequences, [], _).
-test(no_such_task_to_wait_for, error(existence_error(task, b:7))) :-
-    circle([2-(b:7)], [], Sequences),
-    sequences_start(Sequences, [], _).
 test(task_of_a_range_of_times) :-
     Goal = ( random_between(100, 400, Ms), S is Ms/1000, sleep(S) ),
     start(ranges, [1-Goal, 2-Goal], Agents),
     all_end(Agents),
-    histories(ranges, 24, Histories),
-    executed([1, 2], History),
-    all_same(Histories, History).
+    all_executed(ranges, [1, 2]).
 test(atomic_failures_from_another_process_are_healed) :-
     start_with_gate(atomic, [1, 2, gate], Agents),
     hosts(Hosts),
@@ -246,7 +260,7 @@ test(cascaded_failures_are_healed_in_order) :-
     executed([1, 2], Before),
     executed([2, gate], After),
     append([Before, [r(gate), f(2), f(gate)], After], History),
-    all_same(Histories, History),
+    maplist(==(History), Histories),
     settled(cascade).
 test(task_added) :-
     start_with_gate(added, [1, gate], Agents),
@@ -255,9 +269,7 @@ test(task_added) :-
     sequence_change(added, [A], Tasks),
     open_gates,
     all_end(Agents),
-    histories(added, 36, Histories),
-    executed([1, gate, 3], History),
-    all_same(Histories, History),
+    all_executed(added, [1, gate, 3]),
     logged(added, 36, Events),
     \+ overlap(Events, [1, gate, 3]).
 test(task_removed) :-
@@ -268,9 +280,7 @@ test(task_removed) :-
     wait_until(maplist(plans(3), Agents), 20),
     open_gates,
     all_end(Agents),
-    histories(removed, 36, Histories),
-    executed([1, gate, 4], History),
-    all_same(Histories, History).
+    all_executed(removed, [1, gate, 4]).
 test(task_that_always_fails_is_taken_out) :-
     tasks([1, 3], [First, Last]),
     start(bad, [First, 2-fail, Last], Agents),
@@ -289,9 +299,7 @@ test(hosts_that_come_late) :-
     all_at_gate,
     open_gates,
     all_end(Agents),
-    histories(late, 24, Histories),
-    executed([1, gate], History),
-    all_same(Histories, History).
+    all_executed(late, [1, gate]).
 test(failure_after_the_end_is_healed_by_new_agents) :-
     tasks([1, 2], Tasks),
     start(again, Tasks, Agents1),
@@ -314,9 +322,7 @@ test(uncompleted_task_does_not_fail, Failed == []) :-
     tasks_fail(early, 3, Hosts, Failed),
     open_gates,
     all_end(Agents),
-    histories(early, 36, Histories),
-    executed([1, gate, 3], History),
-    all_same(Histories, History).
+    all_executed(early, [1, gate, 3]).
 test(last_change_is_the_newest, true(V0 < V1)) :-
     hosts([A, B|_]),
     sequence_start(undecided, [A, B], [1-true], [agents(0)], []),
@@ -331,28 +337,16 @@ test(same_tasks_are_the_same_plan, V1 == V0) :-
     plan_at(A, same, V0),
     sequence_start(same, [A], [1-Goal], [agents(0)], []),
     plan_at(A, same, V1).
-test(change_of_an_unknown_sequence,
-     error(existence_error(sequence, nothing))) :-
+test(error, [forall(wrong(_What, Hosts, Goal, Formal))]) :-
     hosts(Hosts),
-    sequence_change(nothing, Hosts, [1-true]).
-test(two_tasks_of_one_name, error(domain_error(distinct_tasks, [1, 1]))) :-
-    hosts(Hosts),
-    sequence_start(twice, Hosts, [1-true, 1-fail], [], _).
-test(no_agent_ends_without_bias, error(domain_error(setting, delta-0))) :-
-    hosts(Hosts),
-    sequence_start(odd, Hosts, [1-true], [settings([delta-0])], _).
-test(no_strategy, error(domain_error(setting, strategy-_))) :-
-    hosts(Hosts),
-    sequence_start(odd, Hosts, [1-true], [settings([strategy-_])], _).
+    catch(Goal, error(Raised, _), true),
+    assertion(Raised =@= Formal).
 test(another_strategy) :-
     hosts(Hosts),
     sequence_start(random, Hosts, [1-true],
                    [ agents(2),
                      settings([delta-20, strategy-random]) ], Agents),
     forall(member(Agent, Agents), agent_join(Agent, done, 60)).
-test(unknown_setting, error(domain_error(setting, hurry-1))) :-
-    hosts(Hosts),
-    sequence_start(odd, Hosts, [1-true], [settings([hurry-1])], _).
 
 logged_event(Sequence, What) :-
     logged(Sequence, 0, Events),
@@ -365,9 +359,6 @@ times_completed(Sequence, Task, Count) :-
 
 plan_at(Host, Sequence, Version) :-
     remote(Host, sense(plan(Sequence, Version, _))).
-
-all_same(Histories, History) :-
-    maplist(==(History), Histories).
 
 healed_atomic(History) :-
     executed([1, 2], Before),
@@ -449,9 +440,7 @@ small_run(Run, Agents) :-
 
 run_was_in_step(Run) :-
     run_name(Run, Name),
-    histories(Name, 24, Histories),
-    executed([1, 2, 3], History),
-    maplist(==(History), Histories),
+    all_executed(Name, [1, 2, 3]),
     logged(Name, 24, Events),
     \+ overlap(Events, [1, 2, 3]).
 

@@ -1,6 +1,7 @@
 :- module(test_host_arguments, []).
 :- use_module(library(plunit)).
 :- use_module('../../lib/common').
+:- use_module('../../lib/texts', [message_text/2]).
 :- use_module('../../lib/networks').
 :- use_module('../../lib/fixtures').
 :- use_module(library(apply)).
@@ -85,17 +86,12 @@ outcome(Goal, Outcome) :-
     ;   Outcome = false
     ).
 
-text(Error, Text) :-
-    '$messages':translate_message(Error, Lines, []),
-    with_output_to(string(Text),
-                   print_message_lines(current_output, '', Lines)).
-
 works(Goal) :-
     copy_term(Goal, Copy),
     outcome(Copy, Outcome),
     (   Outcome = error(Formal, _)
     ->  assertion(ends(Goal, Formal)),
-        text(Outcome, Text),
+        message_text(Outcome, Text),
         assertion(\+ sub_string(Text, _, _, _, "Unknown error")),
         ( Goal = host_stop(_)
         -> assertion(sub_string(Text, _, _, _, "remote('farm@")) ; true )
@@ -107,7 +103,7 @@ works(Goal) :-
 is_unknown(Goal) :-
     outcome(Goal, Outcome),
     assertion(Outcome = error(existence_error(host, fram), _)),
-    text(Outcome, Text),
+    message_text(Outcome, Text),
     assertion(sub_string(Text, _, _, _, "(did you mean farm")).
 
 :- begin_tests(host_arguments).

@@ -1,6 +1,7 @@
 :- module(test_host_names, []).
 :- use_module(library(plunit)).
 :- use_module('../../lib/common').
+:- use_module('../../lib/texts', [message_text/2]).
 :- use_module('../../lib/fixtures').
 :- use_module('../../lib/networks').
 :- use_module(library(apply)).
@@ -31,11 +32,6 @@ ambiguous(Goal, Name, Addresses) :-
 
 noted(Queue, Event) :-
     thread_send_message(Queue, Event).
-
-message_text(Error, Text) :-
-    phrase('$messages':translate_message(Error), Lines),
-    with_output_to(string(Text),
-                   print_message_lines(current_output, '', Lines)).
 
 :- begin_tests(host_names, [setup(world_start), cleanup(world_end)]).
 

@@ -1,5 +1,6 @@
 :- module(test_host_setup, []).
 :- use_module('../../lib/common').
+:- use_module('../../lib/texts', [write_file/3]).
 :- use_module('../../lib/networks').
 :- use_module(library(plunit)).
 :- use_module(library(filesex), [directory_file_path/3]).
@@ -158,9 +159,7 @@ status_of_saved(Status, Dir) :-
     directory_file_path(Dir, saved, Saved),
     project_file(prolog, Library),
     program(Format),
-    setup_call_cleanup(open(File, write, Out),
-                       format(Out, Format, [Library]),
-                       close(Out)),
+    write_file(File, Format, [Library]),
     format(atom(Save),
            'qsave_program(~q,[goal(main),stand_alone(true),foreign(save)])',
            [Saved]),

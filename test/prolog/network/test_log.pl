@@ -1,5 +1,6 @@
 :- module(test_log, []).
 :- use_module('../../lib/common').
+:- use_module('../../lib/texts', [write_file/2]).
 :- use_module(library(plunit)).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(thread), [concurrent_forall/3]).
@@ -26,12 +27,6 @@ with_log(Options, Address, File, Goal, Events) :-
 
 arrives(Address, Host, Agent, What) :-
     typhon_endpoint:received(log, event(Address, Host, Agent, What), tester).
-
-write_text(File, Text) :-
-    setup_call_cleanup(
-        open(File, write, Out, [encoding(utf8)]),
-        write(Out, Text),
-        close(Out)).
 
 %   quietly(:Goal, -Messages): the messages typhon(_) that Goal printed.
 
@@ -316,7 +311,7 @@ test(no_such_file, error(existence_error(_, _))) :-
 
 read_text(Text, Ns, Messages, Dir) :-
     directory_file_path(Dir, 'events.pl', File),
-    write_text(File, Text),
+    write_file(File, Text),
     quietly(log_events(File, Events), Printed),
     findall(N, member(event(_, _, _, N), Events), Ns),
     findall(log_line_skipped(L),
@@ -329,7 +324,7 @@ test(append_after_an_orderly_end, Ns-Messages == [1,3]-[]) :-
 
 append_to(Text, Ns, Messages, Dir) :-
     directory_file_path(Dir, 'events.pl', File),
-    write_text(File, Text),
+    write_file(File, Text),
     log_server_start([file(File), mode(append)], Address),
     arrives(Address, h, a, 3),
     log_server_stop(Address),
@@ -341,7 +336,7 @@ append_to(Text, Ns, Messages, Dir) :-
 test(new_file_by_default, Ns == [3]) :-
     with_tmp_dir(Dir,
         ( directory_file_path(Dir, 'events.pl', File),
-          write_text(File, "event(1.0,h,a,1).\n"),
+          write_file(File, "event(1.0,h,a,1).\n"),
           log_server_start([file(File)], Address),
           arrives(Address, h, a, 3),
           log_server_stop(Address),

@@ -1,5 +1,6 @@
 :- module(test_network, []).
 :- use_module('../../lib/common').
+:- use_module('../../lib/texts', [message_text/2]).
 :- use_module('../../lib/fixtures').
 :- use_module('../../lib/networks').
 :- use_module(library(plunit)).
@@ -349,9 +350,7 @@ test(warning_names_hosts_and_agents_of_a_dead_process) :-
 test(warning_names_ten_hosts_and_counts_the_others) :-
     numlist(1, 12, Hosts),
     Message = typhon(node_down(network0, 7, killed(9), Hosts, [bob])),
-    phrase('$messages':translate_message(Message), Lines),
-    with_output_to(string(Text),
-                   print_message_lines(current_output, '', Lines)),
+    message_text(Message, Text),
     split_string(Text, "\n", "", Parts),
     assertion(Parts = [ "Process 7 of network0 ended: killed(9)",
                         "  its hosts: 1, 2, 3, 4, 5, 6, 7, 8, 9, 10 and 2 more",

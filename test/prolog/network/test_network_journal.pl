@@ -1,5 +1,6 @@
 :- module(test_network_journal, []).
 :- use_module('../../lib/common').
+:- use_module('../../lib/fixtures', [with_hosts/2]).
 :- use_module('../../lib/networks').
 :- use_module(library(plunit)).
 :- use_module(library(aggregate), [aggregate_all/3]).
@@ -17,13 +18,14 @@
 */
 
 :- meta_predicate
-    network(+, +, +, -, 0),
+    network(+, +, +, -, -, 0),
     quiet(0).
 
-%   network(+Dir, +Topology, +Options, -Network, :Goal): with a journal in Dir.
+%   network(+Dir, +Topology, +Options, -Network, -Hosts, :Goal): with a journal
+%   in Dir.
 
-network(Dir, Topology, Options, Network, Goal) :-
-    with_network(Topology, [journal(Dir)|Options], Network, Goal).
+network(Dir, Topology, Options, Network, Hosts, Goal) :-
+    with_network(Topology, [journal(Dir)|Options], Network, Hosts, Goal).
 
 %   Messages that a test provokes are not printed.
 
@@ -41,9 +43,6 @@ user:message_hook(typhon(Message), _, _) :-
 quiet(Goal) :-
     retractall(printed(_)),
     setup_call_cleanup(assertz(expected), once(Goal), retractall(expected)).
-
-hosts(Network, Hosts) :-
-    network_property(Network, hosts(Hosts)).
 
 pids(Network, Pids) :-
     network_property(Network, processes(Pids)).
@@ -86,14 +85,10 @@ walks(Go,
                 | Go ])).
 
 walkers(Hosts, Hops, Agents) :-
-    walker(Program),
-    born(Program, Hosts, Hops, Agents).
+    born(walker, Hosts, Hops, Agents).
 
-patient_walkers(Hosts, Hops, Agents) :-
-    patient(Program),
-    born(Program, Hosts, Hops, Agents).
-
-born(Program, Hosts, Hops, Agents) :-
+born(Kind, Hosts, Hops, Agents) :-
+    call(Kind, Program),
     findall(Agent,
             ( member(Host, Hosts),
               agent_create(Program, Agent, [host(Host), facts([todo(Hops)])]) ),
@@ -119,57 +114,36 @@ visits(Hosts, Sum) :-
 :- begin_tests(network_journal).
 
 test(agents_survive_killed_processes) :-
-    quiet(no_leaks(with_tmp_dir(killed))).
-
-killed(Dir) :-
-    network(Dir, ring(4), [processes(2), restart(true)], Network,
-            killed(100, Network)).
-
-killed(Hops, Network) :-
-    hosts(Network, Hosts),
-    network_property(Network, edges(Edges)),
-    walkers(Hosts, Hops, Agents),
-    forall(member(I, [1, 2, 1, 2]), kill(Network, I)),
-    all_arrived(Hosts, Hops, Agents),
-    hosts(Network, Hosts),
-    network_property(Network, edges(Edges)),
-    network_property(Network, agents([])).
-
+    quiet(with_tmp_dir(Dir,
+        network(Dir, ring(4), [processes(2), restart(true)], Network, Hosts,
+            ( network_property(Network, edges(Edges)),
+              walkers(Hosts, 100, Agents),
+              forall(member(I, [1, 2, 1, 2]), kill(Network, I)),
+              all_arrived(Hosts, 100, Agents),
+              network_property(Network, hosts(Hosts)),
+              network_property(Network, edges(Edges)),
+              network_property(Network, agents([])) )))).
 test(agents_survive_killed_processes_on_other_machines) :-
-    quiet(no_leaks(with_tmp_dir(far))).
-
-far(Dir) :-
-    directory_file_path(Dir, rsh, Program),
-    shell_script(Program, "shift; exec sh -c \"$*\""),
-    directory_file_path(Dir, journal, Journal),
-    Machines = machines(['127.0.0.1', '127.0.0.2']),
-    with_settings([typhon_children:ssh=Program],
-                  ( network(Journal, ring(4), [Machines, restart(true)],
-                            Network, begun_far(Hosts, Agents, Network)),
-                    network(Journal, ring(4), [], Network,
-                            all_arrived(Hosts, 60, Agents, Network))
-                  )).
-
-begun_far(Hosts, Agents, Network) :-
-    hosts(Network, Hosts),
-    walkers(Hosts, 60, Agents),
-    forall(member(I, [1, 2]), kill(Network, I)).
-
-all_arrived(Hosts, Hops, Agents, Network) :-
-    hosts(Network, Hosts),
-    all_arrived(Hosts, Hops, Agents).
-
+    quiet(with_tmp_dir(Dir,
+        ( directory_file_path(Dir, rsh, Program),
+          shell_script(Program, "shift; exec sh -c \"$*\""),
+          directory_file_path(Dir, journal, Journal),
+          Machines = machines(['127.0.0.1', '127.0.0.2']),
+          with_settings([typhon_children:ssh=Program],
+              ( network(Journal, ring(4), [Machines, restart(true)], N, Hosts,
+                        ( walkers(Hosts, 60, Agents),
+                          forall(member(I, [1, 2]), kill(N, I)) )),
+                network(Journal, ring(4), [], _, Hosts,
+                        all_arrived(Hosts, 60, Agents)) )) ))).
 test(stopped_network_resumes) :-
-    no_leaks(with_tmp_dir(stopped)).
-
-stopped(Dir) :-
-    Options = [processes(2), seed(7), log(Log, [hops])],
-    directory_file_path(Dir, 'log.pl', Log),
-    network(Dir, ring(4), Options, Network,
-            begun(Hosts, Agents, Keeper, Edges, Time, Network)),
-    network(Dir, ring(4), [], Network,
-            goes_on(Hosts, Agents, Keeper, Edges, Time, Network)),
-    log_events(Log, Events),
+    with_tmp_dir(Dir,
+        ( directory_file_path(Dir, 'log.pl', Log),
+          Options = [processes(2), seed(7), log(Log, [hops])],
+          network(Dir, ring(4), Options, N1, Hosts,
+                  begun(N1, Hosts, Agents, Keeper, Edges, Time)),
+          network(Dir, ring(4), [], N2, Hosts,
+                  goes_on(N2, Hosts, Agents, Keeper, Edges, Time)),
+          log_events(Log, Events) )),
     forall(member(Agent, Agents),
            ( findall(x, member(event(_, _, Agent, ended(done)), Events), [_]),
              findall(x, member(event(_, _, Agent, arrived(_, _)), Events),
@@ -177,8 +151,7 @@ stopped(Dir) :-
              length(Arrivals, Count),
              Count > 50 )).
 
-begun(Hosts, Agents, Keeper, Edges, Time, Network) :-
-    hosts(Network, Hosts),
+begun(Network, Hosts, Agents, Keeper, Edges, Time) :-
     Hosts = [A, B, C|_],
     unlink(A, B),
     network_property(Network, edges(Edges)),
@@ -191,8 +164,7 @@ begun(Hosts, Agents, Keeper, Edges, Time, Network) :-
     remote(A, leave(here(f(_)))),
     remote(A, now(Time)).
 
-goes_on(Hosts, Agents, Keeper, Edges, Time, Network) :-
-    hosts(Network, Hosts),
+goes_on(Network, Hosts, Agents, Keeper, Edges, Time) :-
     network_property(Network, edges(Edges)),
     network_property(Network, seed(7)),
     Hosts = [A, _, C|_],
@@ -205,18 +177,16 @@ goes_on(Hosts, Agents, Keeper, Edges, Time, Network) :-
     wait_until(agent_property(Keeper, facts([got(one), got(two)])), 5).
 
 test(processes_stop_after_all_agents_rest) :-
-    no_leaks(with_tmp_dir(Dir,
-        ( network(Dir, mesh(3), [processes(3)], Network1,
-                  sets_out(Hosts, Agents, Network1)),
-          network(Dir, mesh(3), [], Network1, pauses(Hosts, Network1)),
-          network(Dir, mesh(3), [], Network,
-              ( hosts(Network, Hosts),
-                forall(member(Agent, Agents), agent_join(Agent, done, 30)),
-                all_visits(All),
-                visits(Hosts, All) )) ))).
+    with_tmp_dir(Dir,
+        ( network(Dir, mesh(3), [processes(3)], _, Hosts,
+                  sets_out(Hosts, Agents)),
+          network(Dir, mesh(3), [], _, Hosts, pauses(Hosts)),
+          network(Dir, mesh(3), [], _, Hosts,
+                  ( forall(member(Agent, Agents), agent_join(Agent, done, 30)),
+                    all_visits(All),
+                    visits(Hosts, All) )) )).
 
-sets_out(Hosts, Agents, Network) :-
-    hosts(Network, Hosts),
+sets_out(Hosts, Agents) :-
     walker(Program),
     findall(Agent,
             ( member(Host, Hosts),
@@ -225,7 +195,7 @@ sets_out(Hosts, Agents, Network) :-
                            [host(Host), facts([todo(Hops), nap(Nap)])]) ),
             Agents),
     wait_until(( visits(Hosts, Now), Now > 15 ), 20),
-    ends_last(Network).
+    ends_last(Hosts).
 
 %   At any time of the stop some agents are about to leave.
 
@@ -234,20 +204,18 @@ way(Hops, Nap) :-
     Hops is 1+8//I,
     Nap is 0.3*I.
 
-pauses(Hosts, Network) :-
-    hosts(Network, Hosts),
+pauses(Hosts) :-
     visits(Hosts, Before),
     all_visits(All),
     wait_until(( visits(Hosts, Now), Now >= min(All, Before+15) ), 20),
-    ends_last(Network).
+    ends_last(Hosts).
 
 all_visits(All) :-
     aggregate_all(sum(3*Hops), way(Hops, _), All).
 
 %   The second process ends only after the first, and notices its end soon.
 
-ends_last(Network) :-
-    hosts(Network, [A, B|_]),
+ends_last([A, B|_]) :-
     atomic_list_concat([_, Endpoint], @, A),
     remote(B, settings:set_setting(typhon_connection_manager:connect_time, 0.2)),
     remote(B, \+ \+ thread_create(
@@ -260,26 +228,25 @@ ends_last(Network) :-
 
 test(network_with_a_hanging_and_a_dead_process_stops_soon,
      true(Seconds < 12)) :-
-    quiet(no_leaks(with_tmp_dir(Dir,
-        ( network_start(mesh(4), Network, [processes(4), journal(Dir)]),
-          hosts(Network, Hosts),
-          patient_walkers(Hosts, 30, Agents),
-          wait_until(( visits(Hosts, Now), Now > 20 ), 20),
-          pids(Network, [_, Dead, Hanging|_]),
-          process_kill(Dead, kill),
-          process_kill(Hanging, stop),
-          get_time(T0),
-          network_stop(Network),
-          get_time(T1),
-          Seconds is T1-T0,
-          network(Dir, mesh(4), [], Network1,
-                  all_there(Hosts, 30, Agents, Network1)) )))).
+    quiet(with_tmp_dir(Dir,
+        ( network(Dir, mesh(4), [processes(4)], Network, Hosts,
+              ( born(patient, Hosts, 30, Agents),
+                wait_until(( visits(Hosts, Now), Now > 20 ), 20),
+                pids(Network, [_, Dead, Hanging|_]),
+                process_kill(Dead, kill),
+                process_kill(Hanging, stop),
+                get_time(T0),
+                network_stop(Network),
+                get_time(T1),
+                Seconds is T1-T0 )),
+          network(Dir, mesh(4), [], _, Hosts,
+                  all_arrived(Hosts, 30, Agents)) ))).
 test(killed_network_of_one_process_resumes,
      [forall(member(Processes, [1, 2]))]) :-
     with_tmp_dir(Dir,
         ( first_life(Dir, Processes, Hosts, Agents),
-          no_leaks(network(Dir, ring(3), [], Network,
-              all_there(Hosts, 60, Agents, Network))) )).
+          network(Dir, ring(3), [], _, Hosts,
+                  all_arrived(Hosts, 60, Agents)) )).
 
 first_life(Dir, Processes, Hosts, Agents) :-
     project_file(prolog, Library),
@@ -299,25 +266,18 @@ first_life(Dir, Processes, Hosts, Agents) :-
                  term_string(Hosts-Agents, Line),
                  process_kill(Pid, kill) )).
 
-all_there(Hosts, Hops, Agents, Network) :-
-    hosts(Network, Hosts),
-    all_arrived(Hosts, Hops, Agents).
-
 test(stopped_network_in_this_process_ends_no_agent,
      Ends == [done]) :-
-    no_leaks(with_tmp_dir(here(Ends))).
-
-here(Ends, Dir) :-
-    directory_file_path(Dir, 'log.pl', Log),
-    network(Dir, ring(2), [log(Log)], Network, one_walks(Agent, Network)),
-    network(Dir, ring(2), [], Network, goes_on_alone(Agent, Network)),
-    log_events(Log, Events),
+    with_tmp_dir(Dir,
+        ( directory_file_path(Dir, 'log.pl', Log),
+          network(Dir, ring(2), [log(Log)], _, [Host|Others],
+                  ( walkers([Host], 100, [Agent]),
+                    wait_until(has_walked(Agent), 10) )),
+          network(Dir, ring(2), [], _, [Host|Others],
+                  ( has_walked(Agent),
+                    all_arrived([Host|Others], 100, [Agent]) )),
+          log_events(Log, Events) )),
     findall(End, member(event(_, _, Agent, ended(End)), Events), Ends).
-
-one_walks(Agent, Network) :-
-    hosts(Network, [Host|_]),
-    walkers([Host], 100, [Agent]),
-    wait_until(has_walked(Agent), 10).
 
 %   Or the agent has arrived already.
 
@@ -327,23 +287,18 @@ has_walked(Agent) :-
     ;   agent_join(Agent, done, 0)
     ).
 
-goes_on_alone(Agent, Network) :-
-    has_walked(Agent),
-    hosts(Network, Hosts),
-    all_arrived(Hosts, 100, [Agent]).
-
 test(changing_links_resume, Edges == Expected) :-
     with_tmp_dir(Dir,
         ( Options = [ processes(2), seed(3), clock(5),
                       dynamic(links(uniform(6, 12), 0.5, 0.9)) ],
-          network(Dir, ring(6), Options, Network,
-              ( hosts(Network, [Host|_]),
-                wait_until(( remote(Host, now(Time)), Time > 12 ), 10) )),
-          network(Dir, ring(6), [], Network1,
-              wait_until(as_it_would_be(Network1, Edges, Expected), 20)) )).
+          typhon_plan:network_plan(ring(6), Options, Plan),
+          network(Dir, ring(6), Options, _, [Host|_],
+                  wait_until(( remote(Host, now(Time)), Time > 12 ), 10)),
+          network(Dir, ring(6), [], N, Hosts,
+                  wait_until(as_it_would_be(N, Hosts, Plan, Edges, Expected),
+                             20)) )).
 
-as_it_would_be(Network, Plan, Edges, Expected) :-
-    hosts(Network, Hosts),
+as_it_would_be(Network, Hosts, Plan, Edges, Expected) :-
     Hosts = [Host|_],
     remote(Host, now(Before)),
     network_property(Network, edges(Edges)),
@@ -364,10 +319,12 @@ as_it_would_be(Network, Plan, Edges, Expected) :-
 
 refused(Dir, Topology, Options, Formal) :-
     contents(Dir, Before),
-    catch(no_leaks(network(Dir, Topology, Options, _, true)),
-          error(Formal0, _), true),
-    contents(Dir, Before),
-    Formal = Formal0.
+    network_error(Dir, Topology, Options, Formal),
+    contents(Dir, Before).
+
+network_error(Dir, Topology, Options, Formal) :-
+    catch(no_leaks(network(Dir, Topology, Options, _, _, true)),
+          error(Formal, _), true).
 
 contents(Dir, Contents) :-
     findall(File-Codes,
@@ -382,17 +339,15 @@ test(journal_of_another_network_is_not_touched,
                    journal_of_another(D, processes(2), processes(3)),
                    journal_of_another(D, no(clock), clock(2)),
                    domain_error(network_option, colour(red)) ]) :-
-    with_tmp_dir(other(D, Formals)).
-
-other(D, Formals, D) :-
-    network(D, ring(3), [processes(2)], _, true),
-    findall(Formal,
-            ( member(Topology-Options,
-                     [ ring(4)-[], ring(3)-[processes(3)],
-                       ring(3)-[clock(2)], ring(3)-[colour(red)] ]),
-              refused(D, Topology, Options, Formal0),
-              forgotten(Formal0, Formal) ),
-            Formals).
+    with_tmp_dir(D,
+        ( network(D, ring(3), [processes(2)], _, _, true),
+          findall(Formal,
+                  ( member(Topology-Options,
+                           [ ring(4)-[], ring(3)-[processes(3)],
+                             ring(3)-[clock(2)], ring(3)-[colour(red)] ]),
+                    refused(D, Topology, Options, Formal0),
+                    forgotten(Formal0, Formal) ),
+                  Formals) )).
 
 forgotten(journal_of_another(D, shape(_, _), shape(_, _)), Formal) =>
     Formal = journal_of_another(D, shape(_, _), shape(_, _)).
@@ -406,7 +361,7 @@ test(damaged_or_locked_journal_is_reported,
                  quiet(with_tmp_dir(no_good(Formals)))).
 
 no_good([F1, F2, F3], Dir) :-
-    network(Dir, ring(2), [processes(2)], _, true),
+    network(Dir, ring(2), [processes(2)], _, _, true),
     directory_file_path(Dir, 'process2', Second),
     directory_file_path(Second, 'journal.db', File),
     directory_file_path(Dir, 'network.pl', Record),
@@ -416,10 +371,8 @@ no_good([F1, F2, F3], Dir) :-
                         flush_output, read(_)', [Second]),
     with_swipl(['-g', Goal, '-t', halt, Store], _, _, Out,
                ( read_line_to_string(Out, "open"),
-                 catch(no_leaks(network(Dir, ring(2), [], Network,
-                                        true(Network))),
-                       error(F3, _), true) )),
-    no_leaks(network(Dir, ring(2), [], _, true)).
+                 network_error(Dir, ring(2), [], F3) )),
+    network(Dir, ring(2), [], _, _, true).
 
 %   The journal is restored afterwards.
 
@@ -430,8 +383,7 @@ spoilt(Dir, File, Formal) :-
                        forall(between(1, 3000, I), writeln(Out, f(I))),
                        close(Out)),
     read_file_to_codes(File, Before, [type(binary)]),
-    catch(no_leaks(network(Dir, ring(2), [], _, true)),
-          error(Formal, _), true),
+    network_error(Dir, ring(2), [], Formal),
     read_file_to_codes(File, Before, [type(binary)]),
     rename_file(Good, File).
 
@@ -440,115 +392,86 @@ test(journal_is_refused_in_virtual_time_and_beside_other_hosts,
                        permission_error(open, journal, '/tmp/none/process1') ]-
                      [ 'not in virtual time',
                        'this process has hosts already' ]) :-
-    catch(network_start(ring(2), _, [journal('/tmp/none'), clock(virtual)]),
-          error(F1, context(_, W1)), true),
-    setup_call_cleanup(
-        host_start(other),
-        catch(network_start(ring(2), _, [journal('/tmp/none')]),
-              error(F2, context(_, W2)), true),
-        host_stop(other)),
+    start_error([journal('/tmp/none'), clock(virtual)], F1, W1),
+    with_hosts([other], start_error([journal('/tmp/none')], F2, W2)),
     Formals = [F1, F2],
     Whys = [W1, W2].
 
+start_error(Options, Formal, Why) :-
+    catch(network_start(ring(2), _, Options),
+          error(Formal, context(_, Why)), true).
+
 test(journal_options_of_single_hosts_are_refused,
-     Refused == [ hosts([journal('/tmp/none')])-Whole,
+     Refused == [ hosts([journal(Dir)])-Whole,
                   hosts([capacity(3), sync(full)])-Whole,
                   sync(full)-'there is no journal(Directory)' ]) :-
     Whole = 'journal and sync are for the whole network, not for its hosts',
-    findall(Option-Why,
-            ( member(Options,
-                     [ [hosts([journal('/tmp/none')])],
-                       [ journal('/tmp/none'), processes(2),
-                         hosts([capacity(3), sync(full)]) ],
-                       [sync(full)] ]),
-              catch(network_start(ring(2), _, Options),
-                    error(permission_error(set, network_option, Option),
-                          context(_, Why)),
-                    true) ),
-            Refused),
-    \+ exists_directory('/tmp/none').
+    with_tmp_dir(Tmp,
+        ( directory_file_path(Tmp, none, Dir),
+          findall(Option-Why,
+                  ( member(Options,
+                           [ [hosts([journal(Dir)])],
+                             [ journal(Dir), processes(2),
+                               hosts([capacity(3), sync(full)]) ],
+                             [sync(full)] ]),
+                    start_error(Options,
+                                permission_error(set, network_option, Option),
+                                Why) ),
+                  Refused),
+          assertion(\+ exists_directory(Dir)) )).
 
 :- end_tests(network_journal).
 
 :- begin_tests(network_restart).
 
 test(hosts_restart_empty_without_a_journal) :-
-    quiet(no_leaks(again)).
-
-again :-
-    with_network(ring(4),
-                 [ processes(2), restart(true), places(leave(food)) ], Network,
-        again(Network)).
-
-again(Network) :-
-    hosts(Network, Hosts),
-    Hosts = [A, _, C|_],
-    network_property(Network, edges(Edges)),
-    forall(member(H, [A, C]), remote(H, leave(mine))),
-    kill(Network, 1),
-    hosts(Network, Hosts),
-    network_property(Network, edges(Edges)),
-    maplist(facts, [A, C], [[food], [food, mine]]),
-    agent_create(clauses([ (:- agent(visits, [])),
-                           (main :- neighbours([H|_]), move(H)) ]), Agent,
-                 [host(A)]),
-    agent_join(Agent, done, 10).
+    quiet(with_network(ring(4),
+                       [processes(2), restart(true), places(leave(food))],
+                       Network, Hosts,
+        ( Hosts = [A, _, C|_],
+          network_property(Network, edges(Edges)),
+          forall(member(H, [A, C]), remote(H, leave(mine))),
+          kill(Network, 1),
+          network_property(Network, hosts(Hosts)),
+          network_property(Network, edges(Edges)),
+          maplist(facts, [A, C], [[food], [food, mine]]),
+          agent_create(clauses([ (:- agent(visits, [])),
+                                 (main :- neighbours([H|_]), move(H)) ]),
+                       Agent, [host(A)]),
+          agent_join(Agent, done, 10) ))).
 
 facts(Host, Facts) :-
     remote(Host, findall(F, sense(F), Facts)).
 
 test(network_is_saved_after_a_process_died) :-
-    quiet(no_leaks(with_tmp_dir(saved))).
+    quiet(with_tmp_dir(Dir,
+        ( directory_file_path(Dir, saved, File),
+          network(Dir, ring(2), [processes(2), restart(true)], Network, _,
+                  ( pids(Network, [_, Pid]),
+                    process_kill(Pid, kill),
+                    wait_until(printed(node_down(_, Pid, _, _, _)), 10),
+                    network_save(Network, File) )),
+          exists_file(File) ))).
 
-saved(Dir) :-
-    directory_file_path(Dir, saved, File),
-    network(Dir, ring(2), [processes(2), restart(true)],
-            Network, saved_without(File, Network)),
-    exists_file(File).
+%   The thread that restarts processes ends after the first restart.
 
-saved_without(File, Network) :-
-    pids(Network, [_, Pid]),
-    process_kill(Pid, kill),
-    wait_until(printed(node_down(_, Pid, _, _, _)), 10),
-    network_save(Network, File).
-
-test(repeatedly_dying_process_is_given_up_and_reported,
-     Told = [node_given_up(_, 1, 2, 60)]) :-
-    with_settings([typhon_restarts:restarts=2], quiet(no_leaks(
-        ( with_network(ring(2), [processes(2), restart(true)], Network,
-              ( kill(Network, 1),
-                kill(Network, 1),
-                pids(Network, [Pid, Other]),
-                process_kill(Pid, kill),
-                wait_until(pids(Network, [Other]), 10),
-                hosts(Network, [_, _]) )) )))),
+test(deaths_are_counted_across_threads_and_a_process_is_given_up,
+     true(Told-Ended = [node_given_up(_, 1, 2, 60)]-[_])) :-
+    with_settings([typhon_restarts:restarts=2],
+        quiet(with_network(ring(2), [processes(2), restart(true)], Network,
+            ( kill(Network, 1),
+              wakes([Thread]),
+              thread_signal(Thread, throw('$aborted')),
+              wait_until(printed(server_ended(_)), 10),
+              kill(Network, 1),
+              network_property(Network, hosts([_, _])),
+              pids(Network, [Pid, Other]),
+              process_kill(Pid, kill),
+              wait_until(pids(Network, [Other]), 10),
+              network_property(Network, hosts([_, _])) )))),
     findall(node_given_up(N, P, M, S),
-            printed(node_given_up(N, P, M, S)), Told).
-test(processes_restart_after_their_starter_thread_has_ended,
-     true(Told == [server_ended])) :-
-    quiet(no_leaks(
-        ( with_network(ring(2), [processes(2), restart(true)], Network,
-              ( wakes([Thread]),
-                thread_signal(Thread, throw('$aborted')),
-                wait_until(printed(server_ended(_)), 10),
-                kill(Network, 1),
-                hosts(Network, [_, _]) )) ))),
-    findall(server_ended, printed(server_ended(_)), Told).
-test(deaths_are_counted_across_threads,
-     true(Told == [node_given_up(1, 1)])) :-
-    with_settings([typhon_restarts:restarts=1],
-                  quiet(no_leaks(counted_by_another))),
-    findall(node_given_up(P, Most), printed(node_given_up(_, P, Most, _)), Told).
-
-counted_by_another :-
-    with_network(ring(2), [processes(2), restart(true)], Network,
-        ( kill(Network, 1),
-          wakes([Thread]),
-          thread_signal(Thread, throw('$aborted')),
-          wait_until(printed(server_ended(_)), 10),
-          pids(Network, [Pid, Other]),
-          process_kill(Pid, kill),
-          wait_until(pids(Network, [Other]), 10) )).
+            printed(node_given_up(N, P, M, S)), Told),
+    findall(E, printed(server_ended(E)), Ended).
 
 %   wakes(-Threads): the threads that restart processes of networks.
 
@@ -559,9 +482,8 @@ wakes(Threads) :-
             Threads).
 
 test(network_is_stopped_during_a_restart) :-
-    quiet(no_leaks(
-        ( network_start(ring(3), Network, [processes(3), restart(true)]),
-          pids(Network, [Pid|_]),
+    quiet(with_network(ring(3), [processes(3), restart(true)], Network,
+        ( pids(Network, [Pid|_]),
           process_kill(Pid, kill),
           wait_until(printed(node_down(_, _, _, _, _)), 5),
           network_stop(Network) ))).

@@ -1,6 +1,7 @@
 :- module(test_processes, []).
 :- use_module(library(plunit)).
 :- use_module('../../lib/common').
+:- use_module('../../lib/texts', [write_file/3]).
 :- use_module('../../lib/fixtures').
 :- use_module('../../lib/peers').
 :- use_module(library(aggregate)).
@@ -264,12 +265,9 @@ test(orders_to_an_agent_circling_three_processes, true(O == disposed)) :-
 
 far(Address, Agent, Dir) :-
     directory_file_path(Dir, 'far.pl', File),
-    setup_call_cleanup(
-        open(File, write, Out),
-        format(Out, ":- agent(far, [state([s/1])]).~n~n\c
-                     main :- go(~q), move(nowhere).~n\c
-                     go(H) :- move(H), s(1).~n", [Address]),
-        close(Out)),
+    write_file(File, ":- agent(far, [state([s/1])]).~n~n\c
+                      main :- go(~q), move(nowhere).~n\c
+                      go(H) :- move(H), s(1).~n", [Address]),
     agent_create(File, Agent).
 
 save_and_load(B, Facts, Host, Dir) :-

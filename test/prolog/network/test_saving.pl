@@ -1,5 +1,6 @@
 :- module(test_saving, []).
 :- use_module('../../lib/common').
+:- use_module('../../lib/texts', [write_file/2]).
 :- use_module('../../lib/fixtures').
 :- use_module('../../lib/networks').
 :- use_module(library(plunit)).
@@ -465,8 +466,7 @@ test(refused, [forall(refused(What, N, File, Goal, Formal))]) :-
     assertion(nonvar(Raised)).
 test(unserializable_state, Error-Old == type_error-"old") :-
     with_file(File,
-        ( setup_call_cleanup(open(File, write, Out), write(Out, old),
-                             close(Out)),
+        ( write_file(File, old),
           with_network(ring(3), [clock(virtual)], N,
                        ( agent_create(clauses([ (:- agent(a, [state([s/1])])),
                                                 (main :- current_output(S),

@@ -1,5 +1,6 @@
 :- module(test_two_machines, []).
 :- use_module('../../lib/common').
+:- use_module('../../lib/texts', [write_file/3]).
 :- use_module(library(plunit)).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(filesex), [directory_file_path/3]).
@@ -109,11 +110,8 @@ test(network_over_two_addresses,
 over(Here, There, Said, Dir) :-
     directory_file_path(Dir, rsh, Rsh),
     space(b, Space),
-    setup_call_cleanup(
-        open(Rsh, write, Out),
-        format(Out, "#!/bin/sh~nshift~nexec ip netns exec ~w sh -c \"$*\"~n",
+    write_file(Rsh, "#!/bin/sh~nshift~nexec ip netns exec ~w sh -c \"$*\"~n",
                [Space]),
-        close(Out)),
     process_create(path(chmod), ['+x', file(Rsh)], []),
     in_space(a, network_over(Here, There, Rsh), [], said(Said)).
 
