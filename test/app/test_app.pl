@@ -3,6 +3,7 @@
 % The command line, in separate processes, as from a shell.
 
 :- use_module('../lib/common').
+:- use_module('../lib/texts', [write_file/2]).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [append/3, member/2, subset/2]).
@@ -65,9 +66,7 @@ has_line(Lines, Pattern) :-
 
 write_file(Dir, Name, Text, File) :-
     directory_file_path(Dir, Name, File),
-    setup_call_cleanup(open(File, write, Out),
-                       write(Out, Text),
-                       close(Out)).
+    write_file(File, Text).
 
 :- begin_tests(app_help).
 

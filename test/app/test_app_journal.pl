@@ -3,6 +3,7 @@
 % Journals on the command line, as from a shell.
 
 :- use_module('../lib/common').
+:- use_module('../lib/texts', [write_file/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
@@ -38,10 +39,8 @@ test(killed_network_restarts_with_its_journal) :-
 
 twice(Tmp) :-
     directory_file_path(Tmp, 'waits.pl', Program),
-    setup_call_cleanup(open(Program, write, Out),
-                       format(Out, ':- agent(waits, []).~n\c
-                                    main :- receive(_-X), result(X).~n', []),
-                       close(Out)),
+    write_file(Program, ':- agent(waits, []).~n\c
+                         main :- receive(_-X), result(X).~n', []),
     directory_file_path(Tmp, journal, Dir),
     Args = [ network, 'ring(2)', '--processes', 2, '--journal', Dir,
              '--restart' ],

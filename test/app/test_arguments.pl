@@ -3,6 +3,7 @@
 % Files among the arguments of programs, without -- before them.
 
 :- use_module('../lib/common').
+:- use_module('../lib/texts', [write_file/2]).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex), [directory_file_path/3, directory_member/3]).
 :- use_module(library(plunit)).
@@ -51,9 +52,7 @@ test(files_without_dashes_are_an_error, forall(program_of_files(Rel, More))) :-
     with_tmp_dir(Dir,
         ( project_file(Rel, Script),
           directory_file_path(Dir, 'round.pl', File),
-          setup_call_cleanup(open(File, write, Out),
-                             write(Out, ':- true.\n'),
-                             close(Out)),
+          write_file(File, ':- true.\n'),
           run_swipl([Script, File|More], [timeout(60)], Status, Text, Err),
           assertion(Status-Text == exit(1)-""),
           atomic_list_concat([Script, --, File|More], ' ', Command),

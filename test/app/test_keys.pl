@@ -3,6 +3,7 @@
 % Keys from the command line: an authority, and hosts that use it.
 
 :- use_module('../lib/common').
+:- use_module('../lib/texts', [write_file/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(plunit)).
@@ -57,9 +58,7 @@ asked(Dir, Address, Client) :-
     assertion(Unknown == exit(1)),
     assertion(sub_string(Why, _, _, _, "it requires TLS")),
     directory_file_path(Dir, 'p.pl', File),
-    setup_call_cleanup(open(File, write, Out),
-                       format(Out, ':- agent(p, []).~nmain.~n', []),
-                       close(Out)),
+    write_file(File, ':- agent(p, []).~nmain.~n', []),
     typhon([create, File, At, Client, '--join=10'], Unsigned, _, Refused),
     assertion(Unsigned == exit(1)),
     assertion(sub_string(Refused, _, _, _, "signed")),

@@ -3,6 +3,7 @@
 % Processes as service managers, containers and scripts start them.
 
 :- use_module('../lib/common').
+:- use_module('../lib/texts', [write_file/3]).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2]).
@@ -40,9 +41,7 @@ test(text_does_not_depend_on_the_locale,
        true(Line == "X=h\u00e9\u4e2d") ]) :-
     with_tmp_dir(Dir,
         ( directory_file_path(Dir, 'place.pl', File),
-          setup_call_cleanup(open(File, write, Out, [encoding(utf8)]),
-                             format(Out, "p('h\u00e9\u4e2d').~n", []),
-                             close(Out)),
+          write_file(File, "p('h\u00e9\u4e2d').~n", []),
           free_port(Port),
           format(atom(Set), 'export LC_ALL=~w;', [Locale]),
           format(atom(At), '--port=~d --consult=~w', [Port, File]),
@@ -131,9 +130,7 @@ other_file(Pid, N, File) :-
 
 checked(Status, Dir) :-
     directory_file_path(Dir, 'a.pl', File),
-    setup_call_cleanup(open(File, write, Out),
-                       format(Out, ":- agent(a, []).~nmain :- leave(x).~n", []),
-                       close(Out)),
+    write_file(File, ":- agent(a, []).~nmain :- leave(x).~n", []),
     command(['unset HOME TYPHON_COOKIE TYPHON_COOKIE_FILE;'], [check, File], '',
             Command),
     sh(Command, Status, _, _).

@@ -4,6 +4,7 @@
 % with one mistake does not.
 
 :- use_module('../lib/common').
+:- use_module('../lib/texts', [write_file/2]).
 :- use_module('../../doc/course/checks/course',
               [ exercise/2, exercise_verdict/3 ]).
 :- use_module('../../doc/course/checks/first_agent', []).
@@ -106,9 +107,7 @@ write_program(Dir, Base, Text, File) :-
     directory_file_path(Dir, Base, File),
     file_directory_name(File, Parent),
     make_directory_path(Parent),
-    setup_call_cleanup(open(File, write, Out, [encoding(utf8)]),
-                       write(Out, Text),
-                       close(Out)).
+    write_file(File, Text).
 
                 /*******************************
                 *          THE COMMAND         *

@@ -19,6 +19,7 @@
 %   export of the library has a PlDoc comment with modes.
 
 :- use_module('../lib/common').
+:- use_module('../lib/texts', [write_file/2, file_lines/2]).
 :- use_module('../lib/transcript', [transcript_differences/4]).
 :- use_module('../../doc/pictures/studies', [study_picture/3]).
 :- use_module(library(apply), [maplist/2]).
@@ -46,8 +47,7 @@ document(File) :-
 %   where the block begins.
 
 blocks(File, Blocks) :-
-    read_file_to_string(File, Text, [encoding(utf8)]),
-    split_string(Text, "\n", "", Lines),
+    file_lines(File, Lines),
     blocks(Lines, 1, Blocks).
 
 blocks([], _, []).
@@ -87,10 +87,7 @@ write_block(Dir, Block) :-
         file_directory_name(File, Parent),
         make_directory_path(Parent),
         text(Lines, Text),
-        setup_call_cleanup(
-            open(File, write, Out, [encoding(utf8)]),
-            write(Out, Text),
-            close(Out))
+        write_file(File, Text)
     ;   true
     ).
 
@@ -219,8 +216,7 @@ undocumented(File, PI) :-
     exports(File, PIs),
     \+ ( catch(read_file_to_terms(File, Terms, []), error(_, _), fail),
          forall(member(Term, Terms), Term = (:- _)) ),
-    read_file_to_string(File, Text, [encoding(utf8)]),
-    split_string(Text, "\n", "", Lines),
+    file_lines(File, Lines),
     findall(Documented, documented(Lines, Documented), All),
     member(PI, PIs),
     \+ memberchk(PI, All).
@@ -272,7 +268,7 @@ has_mode(Arg0) :-
 
 broken_links_in(Text, Links, Dir) :-
     directory_file_path(Dir, 'doc.md', File),
-    setup_call_cleanup(open(File, write, Out), write(Out, Text), close(Out)),
+    write_file(File, Text),
     findall(Link, broken_link(File, Link), Links).
 
                 /*******************************
@@ -363,8 +359,7 @@ test(each_word_that_users_look_for_has_a_section,
     project_file('doc/*.md', Pattern),
     expand_file_name(Pattern, All),
     findall(File, ( member(File, All),
-                    read_file_to_string(File, Text, [encoding(utf8)]),
-                    split_string(Text, "\n", "", Lines),
+                    file_lines(File, Lines),
                     about(Lines, Word) ), Files).
 test(sessions_answer_as_shown,
      [ condition(missing([python3], [])),

@@ -1,9 +1,9 @@
 :- module(test_equations, []).
 :- use_module('../lib/common', [project_file/2]).
+:- use_module('../lib/texts', [file_lines/2]).
 :- use_module(library(filesex), [directory_member/3]).
 :- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(plunit)).
-:- use_module(library(readutil), [read_file_to_string/3]).
 
 /** <module> doc/equations.md: each number of the thesis, its predicate, its test
 
@@ -27,8 +27,7 @@ numbered("Table 6.1").
 
 row(Number, Predicate, Test) :-
     project_file('doc/equations.md', File),
-    read_file_to_string(File, Text, [encoding(utf8)]),
-    split_string(Text, "\n", "", Lines),
+    file_lines(File, Lines),
     member(Line, Lines),
     split_string(Line, "|", " `", ["", Number, _, Predicate, Test, ""]),
     split_string(Predicate, ":", "", [_, _]).

@@ -1,8 +1,8 @@
 :- module(test_limits, []).
 :- use_module('../lib/common').
+:- use_module('../lib/texts', [file_lines/2]).
 :- use_module(library(plunit)).
 :- use_module(library(lists), [append/3, member/2]).
-:- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(settings), [setting_property/2]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/base/index), [part_setting/6]).
@@ -27,8 +27,7 @@ test(bounds_of_the_table_are_those_of_the_program, Wrong-Some == []-true) :-
 
 bound_of_table(Module, Name, Bound) :-
     project_file('doc/limits.md', File),
-    read_file_to_string(File, Text, []),
-    split_string(Text, "\n", "", Lines),
+    file_lines(File, Lines),
     member(Line, Lines),
     split_string(Line, "`", "", [_,_,_|_]),
     split_string(Line, "`", "", Parts),

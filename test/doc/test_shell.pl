@@ -12,6 +12,7 @@
 
 :- use_module('../lib/common').
 :- use_module('../lib/quick_swipl', [quick_swipl/3]).
+:- use_module('../lib/texts', [write_file/2, file_lines/2]).
 :- use_module(library(apply), [foldl/4]).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex),
@@ -39,8 +40,7 @@ document(File) :-
 %   commands(+File, -Commands): strings, in order.
 
 commands(File, Commands) :-
-    read_file_to_string(File, Text, [encoding(utf8)]),
-    split_string(Text, "\n", "", Lines),
+    file_lines(File, Lines),
     findall(Command, command_in(Lines, Command), Commands).
 
 command_in(Lines, Command) :-
@@ -237,8 +237,7 @@ named_here(Text, _, Text).
 
 served_address(Address) :-
     server(_, File),
-    read_file_to_string(File, Text, []),
-    split_string(Text, "\n", "", Lines),
+    file_lines(File, Lines),
     member(Address, Lines),
     sub_string(Address, _, _, _, "@127.0.0.1:").
 
@@ -368,8 +367,7 @@ expected_lines(Command, Count) :-
 expected_lines(_, 1).
 
 has_lines(File, Count) :-
-    read_file_to_string(File, Text, []),
-    split_string(Text, "\n", "", Lines),
+    file_lines(File, Lines),
     length(Lines, Length),
     Length > Count.
 
@@ -481,11 +479,6 @@ copy_of('census.pl', 'examples/agents/census.pl').
 copy_of('visitor.pl', 'examples/agents/hello.pl').
 copy_of('repair.pl', 'payloads/allocation/nearest.pl').
 copy_of('my.pl', 'examples/studies/coverage.pl').
-
-write_file(File, Text) :-
-    setup_call_cleanup(open(File, write, Out),
-                       write(Out, Text),
-                       close(Out)).
 
 :- begin_tests(shell, [setup(tree_compile), cleanup(tree_remove)]).
 

@@ -3,6 +3,7 @@
 
 :- module(test_threats, []).
 :- use_module('../lib/common').
+:- use_module('../lib/texts', [file_lines/2]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(plunit)).
 :- use_module(library(readutil), [read_file_to_string/3, read_file_to_terms/3]).
@@ -27,8 +28,7 @@ test(sixty_attempts_are_named, true(Count >= 60)) :-
 
 threat(Threat, Tests) :-
     project_file('doc/security.md', File),
-    read_file_to_string(File, Text, [encoding(utf8)]),
-    split_string(Text, "\n", "", Lines),
+    file_lines(File, Lines),
     append(_, ["| threat | what stops it | test: attempts | what remains |",_
               |Rows], Lines),
     append(Table, [""|_], Rows),

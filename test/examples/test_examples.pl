@@ -3,13 +3,13 @@
 % Every example runs by itself and prints the expected lines.
 
 :- use_module('../lib/common').
+:- use_module('../lib/texts', [file_lines/2]).
 :- use_module('../lib/fixtures').
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists),
               [append/3, last/2, member/2, numlist/3, select/3]).
 :- use_module(library(plunit)).
-:- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(typhon)).
 
 %   shows(Example, Lines): patterns of lines in the output, in any order
@@ -71,11 +71,10 @@ all_shown([Pattern|Patterns], Lines) :-
     wildcard_match(Pattern, Line),
     all_shown(Patterns, Rest).
 
-file_lines(Example, Count) :-
+example_lines(Example, Count) :-
     format(atom(Relative), 'examples/~w.pl', [Example]),
     project_file(Relative, File),
-    read_file_to_string(File, Text, []),
-    split_string(Text, "\n", "", Lines),
+    file_lines(File, Lines),
     length(Lines, Count0),
     Count is Count0-1.
 

@@ -4,6 +4,7 @@
 % Debian; what is deployed has what cells need.
 
 :- use_module('../lib/common').
+:- use_module('../lib/texts', [write_file/2, file_lines/2]).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex),
               [ chmod/2, directory_file_path/3, directory_member/3,
@@ -96,8 +97,7 @@ requirements(Name, Lines) :-
     project_file('.ci/requirements', Dir),
     directory_member(Dir, File, [extensions([txt])]),
     file_base_name(File, Name),
-    read_file_to_string(File, Text, []),
-    split_string(Text, "\n", "", Lines0),
+    file_lines(File, Lines0),
     joined(Lines0, Lines).
 
 requirement(Name, Line) :-
@@ -200,13 +200,13 @@ jade_in(Dir) :-
     make_directory_path(Jars),
     directory_file_path(Jars, 'jade-4.3.jar', Jar),
     directory_file_path(Dir, curl, Curl),
-    save(Curl, '#!/bin/sh\necho changed >"$3"\n'),
+    write_file(Curl, '#!/bin/sh\necho changed >"$3"\n'),
     chmod(Curl, +x),
     jade(Dir, ['--get'], Status, Out),
     assertion(Status \== exit(0)),
     assertion(Out == ""),
     assertion(\+ exists_file(Jar)),
-    save(Jar, 'changed\n'),
+    write_file(Jar, 'changed\n'),
     jade(Dir, [], Status1, Out1),
     assertion(Status1-"" == exit(1)-Out1).
 
@@ -219,9 +219,6 @@ jade(Dir, Args, Status, Text) :-
                      stdout(pipe(Out)), process(Pid) ]),
     call_cleanup(read_string(Out, _, Text), close(Out)),
     process_wait(Pid, Status).
-
-save(File, Text) :-
-    setup_call_cleanup(open(File, write, Out), write(Out, Text), close(Out)).
 
 :- end_tests(downloads).
 

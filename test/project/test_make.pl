@@ -4,6 +4,7 @@
 
 :- use_module('../lib/common').
 :- use_module(library(apply), [maplist/3]).
+:- use_module('../lib/texts', [write_file/3]).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex),
               [ chmod/2, copy_file/2, directory_file_path/3, link_file/3 ]).
@@ -54,13 +55,9 @@ link_command(Dir, Command) :-
 
 fake_apt(Dir, Notes, Failures) :-
     directory_file_path(Dir, 'apt-get', Apt),
-    setup_call_cleanup(
-        open(Apt, write, Out),
-        format(Out, '#!/bin/sh~n\c
+    write_file(Apt, '#!/bin/sh~n\c
                      echo "$@" >> ~w~n\c
-                     [ "$(wc -l < ~w)" -gt ~d ]~n',
-               [Notes, Notes, Failures]),
-        close(Out)),
+                     [ "$(wc -l < ~w)" -gt ~d ]~n', [Notes, Notes, Failures]),
     chmod(Apt, +x).
 
 commands([swipl, make, git, gnuplot, dot, ip]).

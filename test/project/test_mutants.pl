@@ -1,5 +1,6 @@
 :- module(test_mutants_suite, []).
 :- use_module('../lib/common').
+:- use_module('../lib/texts', [write_file/2]).
 :- use_module('../mutants/changes').
 :- use_module('../promises', [promise/5, promise_problem/1]).
 :- use_module(library(aggregate), [aggregate_all/3]).
@@ -31,7 +32,7 @@ changed(Changes, Texts) :-
 changed(Changes, Texts, Dir) :-
     directory_file_path(Dir, 'm.pl', File),
     program(Program),
-    setup_call_cleanup(open(File, write, Out), write(Out, Program), close(Out)),
+    write_file(File, Program),
     file_changes(File, Changes0),
     findall(Kind-Line,
             member(change(_, _, _, _, Kind, p/2, Line), Changes0), Changes),

@@ -4,6 +4,7 @@
 % anywhere.  Each test has a home directory of its own.
 
 :- use_module('../lib/common').
+:- use_module('../lib/texts', [write_file/3]).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex), [directory_file_path/3, directory_member/3]).
 :- use_module(library(lists), [member/2]).
@@ -76,9 +77,7 @@ make_program(Dir, Folder, Name) :-
     make_directory(Path),
     file_name_extension(Name, pl, Base),
     directory_file_path(Path, Base, File),
-    setup_call_cleanup(open(File, write, Out),
-                       format(Out, ':- agent(~q, []).~nmain.~n', [Name]),
-                       close(Out)).
+    write_file(File, ':- agent(~q, []).~nmain.~n', [Name]).
 
 archive(Archive) :-
     project_file('.', Root),

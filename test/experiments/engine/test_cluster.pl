@@ -4,6 +4,7 @@
 % here and over ssh, and with Slurm. The machines are this one.
 
 :- use_module('../../lib/common').
+:- use_module('../../lib/texts', [write_file/2]).
 
 :- needs([cluster]).
 
@@ -86,8 +87,7 @@ parallel_over_ssh(Output, Dir, Ssh) :-
 slurm(Output, Dir) :-
     shown('#SBATCH', Script),
     format(atom(File), '~w/study.sh', [Dir]),
-    setup_call_cleanup(open(File, write, Out), write(Out, Script),
-                       close(Out)),
+    write_file(File, Script),
     commands('parallel < ', Before, _, After),
     commands('sbatch ', [], Command, _),
     append(Before, [Command|After], Lines),

@@ -4,6 +4,7 @@
 % beside claims.
 
 :- use_module('../../lib/common').
+:- use_module('../../lib/texts', [write_file/3]).
 :- use_module('../../lib/study_files',
               [pandas_python/1, study_command/4, with_study/3]).
 :- use_module('../../../experiments/engine/cases').
@@ -237,8 +238,7 @@ tables(Tables) :-
     table(Lines),
     atomic_list_concat(Lines, '\n', Text),
     directory_file_path(Dir, 'table.pl', File),
-    setup_call_cleanup(open(File, write, Out), format(Out, '~w~n', [Text]),
-                       close(Out)),
+    write_file(File, '~w~n', [Text]),
     study_command(Dir, [File, '--runs', 2, '--out', out], exit(0), _),
     directory_file_path(Dir, 'out/table', Tables),
     assertz(made(Tables)).

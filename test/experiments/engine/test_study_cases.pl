@@ -3,6 +3,7 @@
 % The cases of a study: parameters that vary, are fixed, derived or given.
 
 :- use_module('../../lib/common').
+:- use_module('../../lib/texts', [message_text/2]).
 :- use_module('../../lib/study_files',
               [save_lines/3, study_command/4, with_study/2,
                with_study_file/4]).
@@ -103,9 +104,7 @@ test(parameter_missing_in_a_case, error(existence_error(key, aa, _))) :-
 test(missing_parameter_is_reported) :-
     dict_pairs(Case, case, [delta-1, hosts-2]),
     catch(_ = Case.dleta, Error, true),
-    phrase('$messages':translate_message(Error), Lines),
-    with_output_to(string(Text),
-                   print_message_lines(current_output, '', Lines)),
+    message_text(Error, Text),
     assertion(once(sub_string(Text, _, _, _,
                               "no parameter dleta (did you mean delta?)"))).
 test(unknown_parameter_is_reported, Status-true == exit(1)-true) :-

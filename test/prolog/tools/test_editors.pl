@@ -3,6 +3,7 @@
 % The answers of SWI-Prolog to an editor about an agent program.
 
 :- use_module('../../lib/common').
+:- use_module('../../lib/texts', [write_file/2]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
@@ -20,7 +21,7 @@ seen(Text, Goal) :-
 
 seen_in(Text, Goal, Dir) :-
     directory_file_path(Dir, 'program.pl', File),
-    setup_call_cleanup(open(File, write, Out), write(Out, Text), close(Out)),
+    write_file(File, Text),
     looked_at(File, Goal).
 
 looked_at(File, Goal) :-

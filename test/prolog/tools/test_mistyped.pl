@@ -1,6 +1,7 @@
 :- module(test_mistyped, []).
 :- use_module(library(plunit)).
 :- use_module('../../lib/common').
+:- use_module('../../lib/texts', [write_file/2, message_text/2]).
 :- use_module('../../lib/networks').
 :- use_module('../../lib/fixtures').
 :- use_module(library(apply)).
@@ -30,12 +31,7 @@ error_text(Goal, Text) :-
     catch(( call(Goal), Error = none ), error(Formal, Context),
           Error = error(Formal, Context)),
     assertion(Error \== none),
-    message_to_codes(Error, Text).
-
-message_to_codes(Error, Text) :-
-    '$messages':translate_message(Error, Lines, []),
-    with_output_to(string(Text),
-                   print_message_lines(current_output, '', Lines)).
+    message_text(Error, Text).
 
 raises(Goal, Parts) :-
     error_text(Goal, Text),
@@ -240,7 +236,7 @@ file('payloads/thermo.pl', ':- payload(thermo, [provides([t/1])]).\nt(1).\n').
 put(Name, Text) :-
     file_directory_name(Name, Folder),
     make_directory_path(Folder),
-    setup_call_cleanup(open(Name, write, Out), write(Out, Text), close(Out)).
+    write_file(Name, Text).
 
 test(agents) :-
     in_directory(raises(agent_check(agents(tourst)),

@@ -3,13 +3,13 @@
 % Output of agents while a query is typed.
 
 :- use_module('../../lib/common').
+:- use_module('../../lib/texts', [write_file/3, file_lines/2]).
 :- use_module(library(apply), [exclude/3]).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [append/2, append/3, member/2]).
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_create/3, process_wait/2]).
-:- use_module(library(readutil), [read_file_to_string/3]).
 
 :- needs([python3]).
 
@@ -22,10 +22,7 @@ screen(Steps, Program, Rows) :-
 screen(Steps, Program, Rows, Dir) :-
     directory_file_path(Dir, 'program.pl', File),
     project_file('prolog/typhon.pl', Typhon),
-    setup_call_cleanup(
-        open(File, write, Out),
-        format(Out, ':- use_module(~q).~n~s', [Typhon, Program]),
-        close(Out)),
+    write_file(File, ':- use_module(~q).~n~s', [Typhon, Program]),
     project_file('test/lib/screen.py', Screen),
     current_prolog_flag(executable, Swipl),
     append([[Screen], Steps, [--, Swipl, '-f', none, '-g',
@@ -38,8 +35,7 @@ screen(Steps, Program, Rows, Dir) :-
                            cwd(Dir), process(Pid) ]),
           process_wait(Pid, Status) ),
         close(OutStream)),
-    read_file_to_string(OutFile, Text, [encoding(utf8)]),
-    split_string(Text, "\n", "", Rows0),
+    file_lines(OutFile, Rows0),
     exclude(==(""), Rows0, Rows),
     assertion(Status-Rows = exit(0)-_).
 

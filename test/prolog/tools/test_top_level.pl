@@ -1,6 +1,7 @@
 :- module(test_top_level, []).
 :- use_module(library(plunit)).
 :- use_module('../../lib/common').
+:- use_module('../../lib/texts', [write_file/2]).
 :- use_module('../../lib/top_level').
 :- use_module('../../lib/transcript', [typed_in_terminal/3]).
 :- use_module(library(filesex)).
@@ -16,7 +17,7 @@
 
 put(Dir, Name, Text) :-
     directory_file_path(Dir, Name, File),
-    setup_call_cleanup(open(File, write, Out), write(Out, Text), close(Out)).
+    write_file(File, Text).
 
 :- begin_tests(errors_at_the_top_level).
 

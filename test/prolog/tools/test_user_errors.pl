@@ -1,6 +1,7 @@
 :- module(test_user_errors, []).
 :- use_module(library(plunit)).
 :- use_module('../../lib/common').
+:- use_module('../../lib/texts', [write_file/2, message_text/2]).
 :- use_module('../../lib/networks').
 :- use_module('../../lib/fixtures').
 :- use_module('../../lib/top_level').
@@ -124,8 +125,7 @@ logged(Options, File) :-
 in_files(Goal, Dir) :-
     forall(file(Name, Text),
            ( directory_file_path(Dir, Name, File),
-             setup_call_cleanup(open(File, write, Out), write(Out, Text),
-                                close(Out)) )),
+             write_file(File, Text) )),
     working_directory(Old, Dir),
     call_cleanup(Goal, working_directory(_, Old)).
 
@@ -147,11 +147,6 @@ outcome(Goal, Outcome) :-
         )
     ;   Outcome = false
     ).
-
-message_text(Error, Text) :-
-    '$messages':translate_message(Error, Lines, []),
-    with_output_to(string(Text),
-                   print_message_lines(current_output, '', Lines)).
 
 with(Goal) :-
     with_network(edges([alpha-beta]), [clock(virtual)], Net,

@@ -4,6 +4,7 @@
 */
 
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/texts', [write_file/3]).
 :- use_module('../../../lib/fixtures').
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2]).
@@ -68,24 +69,21 @@ late([Slow,First,Second], Dir) :-
     directory_file_path(Dir, 'slow.py', File),
     helper_file('lib/helper.py', Lib),
     file_directory_name(Lib, Path),
-    setup_call_cleanup(
-        open(File, write, Out),
-        format(Out, 'import sys, threading, time~n\c
-                     sys.path.insert(0, "~w")~n\c
-                     from helper import Helper, LATER~n\c
-                     class Slow(Helper):~n\c
-                     \x20   met, gone = 0, threading.Event()~n\c
-                     \x20   def do_slow(self, request, deadline):~n\c
-                     \x20       while not request["job"].answered:~n\c
-                     \x20           time.sleep(0.01)~n\c
-                     \x20       return LATER~n\c
-                     \x20   def do_meet(self, request, deadline):~n\c
-                     \x20       self.met += 1~n\c
-                     \x20       time.sleep(0.5)~n\c
-                     \x20       met, self.met = self.met, 0~n\c
-                     \x20       return met~n\c
-                     Slow().run()~n', [Path]),
-        close(Out)),
+    write_file(File, 'import sys, threading, time~n\c
+                      sys.path.insert(0, "~w")~n\c
+                      from helper import Helper, LATER~n\c
+                      class Slow(Helper):~n\c
+                      \x20   met, gone = 0, threading.Event()~n\c
+                      \x20   def do_slow(self, request, deadline):~n\c
+                      \x20       while not request["job"].answered:~n\c
+                      \x20           time.sleep(0.01)~n\c
+                      \x20       return LATER~n\c
+                      \x20   def do_meet(self, request, deadline):~n\c
+                      \x20       self.met += 1~n\c
+                      \x20       time.sleep(0.5)~n\c
+                      \x20       met, self.met = self.met, 0~n\c
+                      \x20       return met~n\c
+                      Slow().run()~n', [Path]),
     helper_python([], Python),
     setup_call_cleanup(
         helper_open(slow, command(Python, [File]), []),

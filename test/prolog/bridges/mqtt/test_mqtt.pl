@@ -7,6 +7,7 @@ programs.
 */
 
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/texts', [write_file/3]).
 :- needs([mqtt]).
 :- use_module('../../../lib/brokers').
 :- use_module('../../../lib/fixtures').
@@ -535,10 +536,7 @@ wrong(_, unsubscribe(a), existence_error(mqtt_subscription, a)).
 
 no_paho(E, Messages, Dir) :-
     directory_file_path(Dir, python, File),
-    setup_call_cleanup(
-        open(File, write, Out),
-        format(Out, '#!/bin/sh~nexec /usr/bin/python3 -S "$@"~n', []),
-        close(Out)),
+    write_file(File, '#!/bin/sh~nexec /usr/bin/python3 -S "$@"~n', []),
     process_create(path(chmod), ['+x', File], []),
     capturing(with_hosts([alpha],
                          catch(mqtt_start(alpha, 'mqtt://127.0.0.1:1',
@@ -790,13 +788,11 @@ certificates(Dir) :-
 
 denied(E, Dir) :-
     directory_file_path(Dir, acl, File),
-    setup_call_cleanup(open(File, write, Out),
-                       format(Out, '{"defaultACLAccess": {\c
-                                    "publishClientSend": true, \c
-                                    "publishClientReceive": true, \c
-                                    "subscribe": false, \c
-                                    "unsubscribe": true}}~n', []),
-                       close(Out)),
+    write_file(File, '{"defaultACLAccess": {\c
+                      "publishClientSend": true, \c
+                      "publishClientReceive": true, \c
+                      "subscribe": false, \c
+                      "unsubscribe": true}}~n', []),
     expand_file_name('/usr/lib/*/mosquitto_dynamic_security.so', [Plugin|_]),
     atom_concat('plugin ', Plugin, Line1),
     atom_concat('plugin_opt_config_file ', File, Line2),

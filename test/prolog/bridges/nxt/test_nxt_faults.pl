@@ -7,6 +7,7 @@ and the state after the death of one of the three processes.
 */
 
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/texts', [write_file/3]).
 :- needs(['python3-serial']).
 :- use_module('../../../lib/fixtures').
 :- use_module('../../../lib/nxt_fixtures').
@@ -75,10 +76,7 @@ test(options, E == domain_error(nxt_option, colour(red))) :-
 
 no_pyserial(E, Context, Dir) :-
     directory_file_path(Dir, python, File),
-    setup_call_cleanup(
-        open(File, write, Out),
-        format(Out, '#!/bin/sh~nexec /usr/bin/python3 -S "$@"~n', []),
-        close(Out)),
+    write_file(File, '#!/bin/sh~nexec /usr/bin/python3 -S "$@"~n', []),
     process_create(path(chmod), ['+x', File], []),
     error_of(nxt_connect(b, '/dev/x', [python(File)]), E, Context).
 
@@ -393,11 +391,8 @@ test(consulted, Outcome-Values == done-[near]) :-
 
 consulted(Outcome, Values, Dir) :-
     directory_file_path(Dir, 'lizzy.pl', File),
-    setup_call_cleanup(
-        open(File, write, Out),
-        format(Out, ':- use_module(library(typhon/nxt)).~n\c
-                     obstacle :- nxt_ultrasonic(lizzy, 4, D), D < 20.~n', []),
-        close(Out)),
+    write_file(File, ':- use_module(library(typhon/nxt)).~n\c
+                      obstacle :- nxt_ultrasonic(lizzy, 4, D), D < 20.~n', []),
     with_hosts([alpha-[consult(File)]],
                ( create([ (main :- obstacle, leave(volts(near))) ], Agent),
                  joined(Agent, Outcome),

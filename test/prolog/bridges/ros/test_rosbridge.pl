@@ -7,6 +7,7 @@ real one refuses.
 */
 
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/texts', [write_file/3]).
 :- use_module('../../../lib/networks').
 :- use_module('../../../lib/ros_agents').
 :- use_module('../../../lib/rosbridge_server').
@@ -524,12 +525,9 @@ test(halting_program_prints_nothing_at_a_deaf_server,
 halted(URL, Said, Status, Dir) :-
     directory_file_path(Dir, 'program.pl', File),
     project_file('prolog/typhon.pl', Typhon),
-    setup_call_cleanup(
-        open(File, write, Out),
-        format(Out, ':- use_module(~q).~n\c
-                     main :- host_start(alpha), ros_start(alpha, ~q, []).~n',
+    write_file(File, ':- use_module(~q).~n\c
+                      main :- host_start(alpha), ros_start(alpha, ~q, []).~n',
                [Typhon, URL]),
-        close(Out)),
     process_create(path(swipl), ['-g', main, '-t', halt, File],
                    [stdin(null), stderr(pipe(Err)), process(Pid)]),
     call_cleanup(read_string(Err, _, Said), close(Err)),

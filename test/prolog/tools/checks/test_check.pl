@@ -1,6 +1,7 @@
 :- module(test_check, []).
 :- use_module(library(plunit)).
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/texts', [message_text/2]).
 :- use_module('../../../lib/fixtures').
 :- use_module(library(apply)).
 :- use_module(library(filesex)).
@@ -58,11 +59,6 @@ loses(Text, What) :-
     found([Text, 'go :- move(a).'], Found),
     findall(L, member(_-L, Found), What).
 
-text_of(Error, Text) :-
-    phrase('$messages':translate_message(Error), Lines),
-    with_output_to(string(Text),
-                   print_message_lines(current_output, '', Lines)).
-
 creation_error(Error, File) :-
     with_hosts([alpha],
                catch(agent_create(File, _), Error, true)).
@@ -74,14 +70,14 @@ unknown_line(Line, File) :-
 
 creation_text(Lines, Text) :-
     with_program(Lines, test_check:creation_error(Error)),
-    text_of(Error, Text).
+    message_text(Error, Text).
 
 printed(Lines, Text) :-
     with_program(Lines, test_check:printed_of(Text)).
 
 printed_of(Text, File) :-
     capturing(agent_check(File), Messages),
-    findall(T, ( member(_-Error, Messages), text_of(Error, T) ), Ts),
+    findall(T, ( member(_-Error, Messages), message_text(Error, T) ), Ts),
     atomic_list_concat(Ts, Text).
 
 empty_file(Dir) :-

@@ -1,5 +1,6 @@
 :- module(test_overlays, []).
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/texts', [write_file/2]).
 :- use_module('../../../lib/fixtures').
 :- use_module('../../../lib/pages').
 :- use_module(library(plunit)).
@@ -44,7 +45,7 @@ shown(Text, Goal, Rows) :-
 
 shown_in(Text, Goal, Rows, Dir) :-
     directory_file_path(Dir, 'clerk.pl', File),
-    setup_call_cleanup(open(File, write, Out), write(Out, Text), close(Out)),
+    write_file(File, Text),
     with_hosts([alpha, beta],
                with_page([overlays([File])], Base,
                          with_feed(Base, Feed, shown_on(Feed, Goal, Rows)))).

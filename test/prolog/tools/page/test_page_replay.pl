@@ -1,5 +1,6 @@
 :- module(test_page_replay, []).
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/texts', [write_file/2, write_file/3]).
 :- use_module('../../../lib/networks').
 
 :- needs([chromium, 'chromium-driver']).
@@ -60,10 +61,7 @@ replay_in(Goal, Dir) :-
 
 make_log(Program, Log) :-
     program(talker, Text),
-    setup_call_cleanup(
-        open(Program, write, Out),
-        write(Out, Text),
-        close(Out)),
+    write_file(Program, Text),
     no_leaks(run(Program, Log)).
 
 run(Program, Log) :-
@@ -176,10 +174,7 @@ saved(View, svg, File) :-
     look(Script, Text),
     format(atom(Name), 'view~d.svg', [View]),
     directory_file_path(Dir, Name, File),
-    setup_call_cleanup(
-        open(File, write, Out, [encoding(utf8)]),
-        write(Out, Text),
-        close(Out)).
+    write_file(File, Text).
 
 :- begin_tests(page_replay, [ condition(tools_there), setup(open_replay),
                               cleanup(close_replay) ]).
@@ -443,10 +438,7 @@ test(script_is_not_closed_by_a_name) :-
     with_tmp_dir(Dir,
         ( maplist(directory_file_path(Dir), ['a.log', 'a.html'], [Log, Html]),
           hostile(Name),
-          setup_call_cleanup(
-              open(Log, write, Out),
-              format(Out, '~q.~n', [event(1, 'a@h:1', 'b.1@a@h:1', Name)]),
-              close(Out)),
+          write_file(Log, '~q.~n', [event(1, 'a@h:1', 'b.1@a@h:1', Name)]),
           page_export(Log, Html, []),
           read_file_to_string(Html, Text, [encoding(utf8)]),
           assertion(\+ sub_string(Text, _, _, _, "<img src=x")),
