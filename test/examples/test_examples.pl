@@ -97,7 +97,7 @@ test(tested, Examples == Tested) :-
 test(short, Long == []) :-
     findall(Example-Lines,
             ( example(Example),
-              file_lines(Example, Lines),
+              example_lines(Example, Lines),
               Lines >= 40
             ),
             Long).
