@@ -10,7 +10,6 @@ see test_pole and test_boxes.
 
 :- use_module('../lib/common').
 :- use_module('../lib/project_studies', [log_measures/5, project_study/2]).
-:- use_module('../../experiments/engine/studies', [study_call/2]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(filesex), [directory_member/3]).
 :- use_module(library(lists),

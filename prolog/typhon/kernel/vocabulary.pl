@@ -11,7 +11,7 @@ This is the interface of the layer: higher layers only load it.
 *Threading*: not applicable, as this module only imports.
 */
 
-:- set_module(base(system)).
+:- ':'(system, set_module(':'(typhon_vocabulary, base(system)))).
 
 :- use_module(library(aggregate)).
 :- use_module(library(apply)).

@@ -3,7 +3,7 @@
             compiling_end/1,            % +Flags
             compiling_load/1            % +Files
           ]).
-:- set_module(base(system)).
+:- ':'(system, set_module(':'(typhon_compiling, base(system)))).
 :- use_module(library(debug), []).      % from 9.2 on it defines a flag
 :- use_module(library(lists), [member/2]).
 
@@ -97,5 +97,5 @@ inherits_from_system(Module) :-
 
 system:term_expansion((:- module(Module, Exports)),
                       [ (:- module(Module, Exports)),
-                        (:- set_module(Module:base(system))) ]) :-
+                        (:- system:set_module(Module:base(system))) ]) :-
     typhon_compiling:inherits_from_system(Module).

@@ -6,7 +6,6 @@
 :- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/options/quotas), []).
-:- use_module(library(typhon/kernel/base/monotonic), [monotonic_time/1]).
 :- use_module(library(typhon/options/quotas/quota_table),
               [quota/3, quota_shared/4, quotas_drop/1, quotas_put/3]).
 
