@@ -24,7 +24,7 @@ names; File begins at the root of the project.
 :- use_module(lib/suites, [suite_named/2]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(filesex), [directory_member/3]).
-:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(lists), [member/2, memberchk/2, nextto/3]).
 :- use_module(library(readutil),
               [read_file_to_string/3, read_file_to_terms/3]).
 
@@ -74,7 +74,7 @@ file_text(File, Text) :-
 %!  promise_problem(-Problem:string) is nondet.
 %
 %   An anchor without a promise, a promise without an anchor, without a test, or
-%   whose text is gone from the product.
+%   whose text is gone from the product; two promises of one name.
 
 promise_problem(Problem) :-
     promised(Document, Terms),
@@ -87,6 +87,11 @@ promise_problem(Problem) :-
         format(string(Message), "no promise has the name ~w", [Anchor])
     ),
     format(string(Problem), "~w: ~s", [Document, Message]).
+promise_problem(Problem) :-
+    findall(Name, promise(Name, _, _, _, _), Names0),
+    msort(Names0, Names),
+    nextto(Name, Name, Names),
+    format(string(Problem), "two promises are named ~w", [Name]).
 
 anchor(Text, Anchor) :-
     atom_string(Atom, Text),

@@ -78,6 +78,8 @@ plain(attackers).
 plain(kernel).
 plain(single).
 plain(user_program).
+plain(kinds).
+plain(on_demand).
 
 main(Argv) :-
     arguments(Argv, Names, []),

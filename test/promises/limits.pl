@@ -18,7 +18,7 @@ promise(size_of_an_offer_is_bounded, directory,
         'prolog/typhon/options/directory/offers.pl',
         "    ( is_tree(Service-Properties, Most) -> true"-
         "    ( is_tree(Service-Properties, Most) -> true ; true -> true").
-promise(mailbox_is_bounded, full_mailbox,
+promise(limit_of_a_mailbox, full_mailbox,
         'prolog/typhon/kernel/agent/mailbox.pl',
         "    Count >= Max,\n"-"    Count > Max,\n").
 promise(message_to_a_full_mailbox_is_not_delivered, full_mailbox,
@@ -40,17 +40,17 @@ promise(groups_of_warnings_are_bounded, reports,
         'prolog/typhon/kernel/base/reports.pl',
         "    (   ( Groups < Most ; Group == others )"-
         "    (   ( Groups < 10*Most ; Group == others )").
-promise(outcomes_are_bounded, bounds,
+promise(limit_of_outcomes, bounds,
         'prolog/typhon/kernel/travel/home.pl',
         "    bounded(outcome(_, _, _), typhon_whereabouts:outcomes,\n            \c
          durable_assertz(outcome(Id, Outcome, Hops))),"-
         "    durable_assertz(outcome(Id, Outcome, Hops)),").
-promise(results_are_bounded, bounds,
+promise(limit_of_results, bounds,
         'prolog/typhon/kernel/travel/outcomes.pl',
         "           bounded(left(_, _), typhon_outcomes:results,\n                   \c
          durable_assertz(left(Id, Item))))."-
         "           durable_assertz(left(Id, Item))).").
-promise(clones_are_bounded, bounds,
+promise(limit_of_clones, bounds,
         'prolog/typhon/kernel/travel/outcomes.pl',
         "    bounded(clone_of(_, _), typhon_outcomes:clones,\n            \c
          durable_assertz(clone_of(Parent, Clone))),"-

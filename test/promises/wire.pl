@@ -260,7 +260,7 @@ promise(undeclared_term_is_refused, [kinds, protocol],
 promise(right_is_needed, arrivals,
         'prolog/typhon/kernel/wire/kinds.pl',
         "        ;   Verdict = refused(Right)\n"-"        ;   Verdict = ok\n").
-promise(refusals_are_audited, arrivals,
+promise(refused_terms_are_audited, arrivals,
         'prolog/typhon/kernel/wire/kinds.pl',
         "    ;   ignore(peer_permitted(undeclared(Kind), all, Term, Peer)),\n\c
          "-
@@ -296,7 +296,7 @@ promise(lost_hop_asks_all_processes, faults,
         "    (   memberchk(true, All)\n    ->  transfer_arrived(Transfer)\n    \c
          ;   HomeAnswer"-
         "    (   HomeAnswer").
-promise(newest_news_counts, news,
+promise(newest_news_of_an_agent_counts, news,
         'prolog/typhon/kernel/travel/news.pl',
         "    \\+ newer(News, Known),\n    !."-"    News == Known,\n    !.").
 promise(news_share_a_frame, news,
@@ -308,7 +308,7 @@ promise(image_is_checked_before_anything_changes, arrival,
         "    is_list(Mail),\n    \c
          forall(member(Message, Mail), subsumes_term(_-_, Message))."-
         "    is_list(Mail).").
-promise(program_has_its_hash, arrival,
+promise(program_is_sent_with_its_hash, arrival,
         'prolog/typhon/kernel/program/code.pl',
         "        maplist(is_import, Libraries),\n        \c
          program_hash(Program, Hash)\n"-

@@ -215,7 +215,7 @@ test(first_hosts_by_name_win_at_equal_costs, [Winners == [x-1, y-1]]) :-
     forall(member(Host, [z, y, x]), bid(Job, 1, Host, 3)),
     sent(_),
     at(10),
-    said(a, award(Job, 1, Winners)).
+    says(a-award(Job, 1, Winners)).
 test(second_bid_of_a_host_is_ignored) :-
     auctioneer([], Job),
     bid(Job, 1, x, 5), bid(Job, 1, x, 1), bid(Job, 1, x, 0),

@@ -259,11 +259,11 @@ test(each_run_has_a_directory, Count == 4) :-
     assertion(once(( member(Base, Bases),
                      sub_atom(Base, 0, _, _, 'a=x:y,seed=1-') ))).
 test(run_that_lacks_its_log_is_done_only_without_logs) :-
-    with_runs(lacks_its_log).
+    with_runs(Root, Runs, lacks_its_log(Root, Runs)).
 test(another_fixed_parameter_is_another_run) :-
-    with_runs(another_parameter).
+    with_runs(Root, Runs, another_parameter(Root, Runs)).
 test(name_of_a_run_ends_with_the_hash_of_its_sources) :-
-    with_runs(ends_with_hash).
+    with_runs(Root, Runs, ends_with_hash(Root, Runs)).
 test(long_names_are_cut, true(Length < 150)) :-
     computing(Lines),
     with_tmp_dir(Dir, long(Lines, Length, Dir)).

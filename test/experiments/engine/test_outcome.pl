@@ -3,7 +3,7 @@
 % The results of many runs: medians, shares of seeds, tables.
 
 :- use_module('../../lib/common').
-:- use_module('../../lib/study_files', [study_messages/2, with_study/3]).
+:- use_module('../../lib/study_files', [study_messages/2, with_study/2, with_study/3]).
 :- use_module('../../../experiments/engine/cases', [study_cases/3]).
 :- use_module('../../../experiments/engine/cross_check', [cross_check/4]).
 :- use_module('../../../experiments/engine/numbers').
