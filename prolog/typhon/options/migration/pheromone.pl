@@ -95,9 +95,9 @@ emit_here(Problem, Options) :-
     option(span(Span), Options, 3),
     option(strength(Maximum), Options, 100),
     option(period(Period), Options, 10),
-    host(Host, Source, _),
+    host(Host, Source, Place),
     host_time(Host, Now),
-    spread(Host, Source,
+    spread(Host-Place, Source,
            signal(Problem, Source, Maximum, Span, Period, Now, 1)).
 
 is_small(Problem) :-
@@ -111,9 +111,9 @@ typhon_options:declared(pheromone_option, period(Seconds), number, Seconds).
 %   A signal is signal(Problem, Source, Maximum, Span, Period, Emitted,
 %   Distance); Distance is that of the hosts that receive it.
 
-spread(Host, From, Signal) :-
+spread(Host-Place, From, Signal) :-
     arg(2, Signal, Source),
-    host(Host, Here, _),
+    host(Host, Here, Place),
     host_neighbours(Host, Neighbours),
     findall(Name-Endpoint,
             ( member(To, Neighbours), To \== From, To \== Source,
@@ -126,10 +126,11 @@ spread(Host, From, Signal) :-
 
 inform(Hosts, News) :-
     endpoint_address(Own),
-    findall(Name, member(Name-Own, Hosts), Names),
-    (   Names == []
+    findall(Name-Place,
+            ( member(Name-Own, Hosts), host(Name, _, Place) ), Here),
+    (   Here == []
     ->  true
-    ;   scheduler_call(typhon_pheromone:news(Names, News))
+    ;   scheduler_call(typhon_pheromone:news(Here, News))
     ),
     forall(( member(Name-Endpoint, Hosts), Endpoint \== Own ),
            post(Endpoint, Name, News)).
@@ -144,7 +145,8 @@ post(Endpoint, Name, News) :-
 
 typhon_endpoint:received(pheromone, pheromone(Name, News), Peer) :-
     (   is_news(News, Peer)
-    ->  scheduler_call(typhon_pheromone:news([Name], News))
+    ->  forall(host(Name, _, Place),
+               scheduler_call(typhon_pheromone:news([Name-Place], News)))
     ;   debug(typhon(pheromone), 'ignored a pheromone of ~w', [Peer])
     ).
 
@@ -166,10 +168,15 @@ news(Hosts, News) :-
            catch(news_at(Host, News), error(Formal, Context),
                  print_error(error, error(Formal, Context)))).
 
-news_at(Host, News) :-
-    (   host(Host, _, Place)
-    ->  handle_news(News, Host, Place)
-    ;   true                            % the host was stopped meanwhile
+%   The host may be stopped before this or meanwhile, and another of its name be
+%   started.
+
+news_at(Host-Place, News) :-
+    (   \+ host(Host, _, Place)
+    ->  true
+    ;   handle_news(News, Host, Place)
+    ->  true
+    ;   \+ host(Host, _, Place)
     ).
 
 handle_news(smelt(From, Signal), Host, Place) :-
@@ -181,20 +188,22 @@ handle_news(smelt(From, Signal), Host, Place) :-
     (   with_mutex(typhon_pheromone, store(Host, Place, Now, Pheromone)),
         D < Span
     ->  D1 is D + 1,
-        spread(Host, From,
+        spread(Host-Place, From,
                signal(Problem, Source, Maximum, Span, Period, Emitted, D1))
     ;   true
     ).
 handle_news(withdrawn(Source, Problem), Host, Place) :-
     (   with_mutex(typhon_pheromone, remove(Place, Problem, Source))
-    ->  spread_withdrawal(Host, Source, Problem)
+    ->  spread_withdrawal(Host-Place, Source, Problem)
     ;   true
     ).
 
 %   store(+Host, +Place, +Now, +Pheromone) is semidet: fails if Place has a
-%   better pheromone, or no space.
+%   better pheromone, or no space, or Host has ended: the next host of its name
+%   would count the pheromone.
 
 store(Host, Place, Now, Pheromone) :-
+    once(host(Host, _, Place)),
     Pheromone = pheromone(Problem, Source, Strength, Next, Until),
     Until > Now,
     \+ ( tuple_sense(Place, pheromone(Problem, Source, S0, _, U0)),
@@ -216,7 +225,7 @@ count(Host, Next, Change) :-
     ( Count > 0 -> assertz(here(Host, Next, Count)) ; true ).
 
 typhon_host_parts:ends(Host) :-
-    retractall(here(Host, _, _)).
+    with_mutex(typhon_pheromone, retractall(here(Host, _, _))).
 
 has_space(Host, Place, Now, Next) :-
     (   has_space(Host, Next)
@@ -251,10 +260,11 @@ withdraw_here(Problem) :-
     context_now(Host, Agent),
     parts_call(acts, Host, [Agent, emit(Problem)]),
     must_be(ground, Problem),
-    host(Host, Source, _),
-    spread_withdrawal(Host, Source, Problem).
+    host(Host, Source, Place),
+    spread_withdrawal(Host-Place, Source, Problem).
 
-spread_withdrawal(Host, Source, Problem) :-
+spread_withdrawal(Host-Place, Source, Problem) :-
+    host(Host, _, Place),
     host_neighbours(Host, Neighbours),
     findall(Name-Endpoint,
             ( member(To, Neighbours), To \== Source,
