@@ -240,10 +240,6 @@ promise(refused_hand_over_is_objected_to, protocol,
 promise(deferred_frame_is_answered, protocol,
         'prolog/typhon/kernel/wire/request.pl',
         "    Id is -(Count+1),"-"    Id is -Count,").
-promise(undelivered_request_is_unreachable, wire,
-        'prolog/typhon/kernel/wire/request.pl',
-        "           conclude(unreachable, Id, Key)),"-
-        "           conclude(lost, Id, Key)),").
 promise(request_to_a_gone_peer_is_lost, endpoint,
         'prolog/typhon/kernel/wire/request.pl',
         "    forall(open_request(Id, Key, _), conclude(lost, Id, Key)),"-
