@@ -1,5 +1,6 @@
 :- module(test_equivalent,
-          [ equivalent_change/2         % +Change, -Reason
+          [ equivalent_change/2,        % +Change, -Reason
+            outdated_equivalent/1       % -File
           ]).
 
 /** <module> Changes that change nothing that can be observed
@@ -7,12 +8,16 @@
 *Threading*: any thread.
 */
 
-:- use_module(changes, [change_words/3]).
+:- use_module('../lib/common', [project_file/2]).
+:- use_module(changes, [change_words/3, file_changes/2]).
+:- use_module(library(lists), [member/2]).
 
 %   equivalent(File, Predicate, Kind, Old, New, Reason): Old and New are the
 %   words of the text before and after.
 
-:- dynamic equivalent/6.
+equivalent('prolog/typhon/tools/page/overlays.pl', predicate_dict/2, constants,
+           "user, comment", "comment, user",
+           "module and place of a comment are for warnings, which are not printed").
 
 %!  equivalent_change(+Change, -Reason:string) is semidet.
 
@@ -21,3 +26,15 @@ equivalent_change(Change, Reason) :-
     equivalent(File, Predicate, Kind, _, _, _),
     change_words(Change, Old, New),
     equivalent(File, Predicate, Kind, Old, New, Reason).
+
+%!  outdated_equivalent(-File) is nondet.
+%
+%   A change that is said to be equivalent is no longer one of File.
+
+outdated_equivalent(File) :-
+    equivalent(File, Predicate, Kind, Old, New, _),
+    project_file(File, Path),
+    file_changes(Path, Changes),
+    \+ ( member(Change, Changes),
+         Change = change(_, _, _, _, Kind, Predicate, _),
+         change_words(Change, Old, New) ).

@@ -2,6 +2,7 @@
 :- use_module('../lib/common').
 :- use_module('../lib/texts', [write_file/2]).
 :- use_module('../mutants/changes').
+:- use_module('../mutants/equivalent', [outdated_equivalent/1]).
 :- use_module('../promises', [promise/5, promise_problem/1]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
@@ -74,6 +75,8 @@ test(changed_program_is_a_program_with_as_many_lines, Faults == []) :-
                    split_string(Text, "\n", "", Lines),
                    length(Lines, 11) ) ),
             Faults).
+test(equivalent_changes_are_still_possible, Outdated == []) :-
+    findall(File, outdated_equivalent(File), Outdated).
 test(no_change_leaves_the_program_as_it_was, [fail]) :-
     changed(_, Texts),
     program(Program),
