@@ -188,6 +188,15 @@ test(first_agent_with_new_units_is_taken,
     findall(Other-Count, member(log(shared(Other, Count)), Acts0), Shared),
     once(append(Before, [log(shared(_, _))|_], Acts0)),
     findall(Other, member(send(Other, share(_)), Before), Asked).
+test(all_new_units_are_taken, Shared-Bag == 2-[b-2, c-3]) :-
+    learner([], []),
+    assertz(fake_agent:shareable([a-1])),
+    assertz(fake_agent:bag([])),
+    shares(o, [a-1, b-2, c-3], none),
+    once(fake_agent:ask([o], anything, _)),
+    did(Acts),
+    memberchk(log(shared(o, Shared)), Acts),
+    fake_agent:bag(Bag).
 test(silent_agent_is_removed_from_the_queue,
      Asked-Tuples == 1-[trainer(t)]) :-
     learner([], [queued(o)]),
