@@ -1,6 +1,6 @@
 %   What doc/sieve.md promises, see ../promises.pl.
 
-promise(danger_signal_is_emitted, sieve,
+promise(danger_signal_is_emitted, sieve_agents,
         'agents/sieve/guard.pl',
         "    emit(Attack, [span(Span), period(Period)]),"-
         "    Attack-Span-Period = Attack-Span-Period,").
@@ -69,7 +69,7 @@ promise(offered_from_the_threshold_on, sieve,
         'agents/sieve/antibody.pl',
         "    Psi >= Threshold."-
         "    Psi > Threshold.").
-promise(similar_is_optional, sieve,
+promise(similar_is_optional, sieve_agents,
         'agents/sieve/idiotypic.pl',
         "          error(existence_error(procedure, _), _),\n\c
          \s         fail),"-
@@ -85,7 +85,7 @@ promise(no_clones_in_a_crowd, sieve,
          \s   !,"-
         "    Load < Crowd + 1000,\n\c
          \s   !,").
-promise(refused_clone_is_not_made, sieve,
+promise(refused_clone_is_not_made, sieve_agents,
         'agents/lib/clones.pl',
         "    catch(clone(Branch), error(move_refused(_, _), _), Branch = refused)."-
         "    clone(Branch).").

@@ -132,6 +132,8 @@ test(common_compares_shared_antigens, Gammas == [1.5, 0.5]) :-
     gammas(common, a, [1.0-[a-31], 1.0-[a-23, b-29]], Gammas0),
     maplist(rounded, Gammas0, [G1, G2]),
     Gammas = [G1, G2].
+test(common_adds_up_shared_antigens, Gammas == [0.5, 1.5]) :-
+    gammas(common, c, [1.0-[a-31, b-10], 1.0-[a-30, b-20]], Gammas).
 test(fates, Fates == [clone, stay, stay, die]) :-
     findall(Fate,
             ( member(Gamma, [1.51, 1.5, 0.5, 0.49]),
@@ -143,6 +145,20 @@ test(roulette, [ forall(member(Turn-Chosen, [0.0-a, 0.24-a, 0.26-b, 0.74-b,
     roulette([1-a, 2-b, 0-c, 1-d], Turn, Found).
 test(roulette_without_weights, fail) :-
     roulette([0-a], 0.5, _).
+test(roulette_chooses_each_as_often_as_its_weight,
+     [ forall(member(Weighted, [[3-a, 1-b, 0-c, 4-d], [5-a, 2-b], [1-a]])),
+       Counted == Weighted ]) :-
+    findall(Chosen, ( even_turn(Weighted, Turn),
+                      roulette(Weighted, Turn, Chosen) ), All),
+    findall(Count-Thing, ( member(_-Thing, Weighted),
+                           aggregate_all(count, member(Thing, All), Count) ),
+            Counted).
+
+even_turn(Weighted, Turn) :-
+    pairs_keys(Weighted, Weights),
+    sum_list(Weights, Sum),
+    between(1, Sum, Number),
+    Turn is (Number - 0.5)/Sum.
 
 rounded(X, Y) :-
     Y is round(X*100)/100.

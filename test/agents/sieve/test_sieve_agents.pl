@@ -164,5 +164,11 @@ test(wins_that_make_a_memory_cell, Cells == [2-false, 3-true, 4-false]) :-
 test(no_memory_cells_by_default, Cell == false) :-
     guard([cells(0)]),
     fake_agent:appoint(9, Cell).
+test(application_need_not_define_similar, Gammas == [1.5, 0.5]) :-
+    guard([]),
+    abolish(fake_agent:similar/2),
+    fake_agent:interaction(similar, a, 0.5-0.5,
+                           [cell(1, 1.0, [a-31]), cell(2, 1.0, [a-30, b-9])],
+                           Gammas).
 
 :- end_tests(guard).
