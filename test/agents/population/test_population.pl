@@ -153,10 +153,11 @@ test(turn_may_be_in_flight_to_a_dying_agent) :-
     catch(fake_agent:die, disposed, true),
     fake_host:time(Time),
     Time =:= 0.
-test(without_a_queue_no_waiting, Length-Acts == 1-[]) :-
+test(without_a_queue_no_waiting, [Length, Acts, Time] == [1, [], 0]) :-
     fake_agent('agents/population/cloning.pl', [lifetime(inf)], []),
     fake_agent:await_turn(Length),
-    did(Acts).
+    did(Acts),
+    fake_host:time(Time).
 test(a_turn_costs_a_tick) :-
     member_of(10, 10, []),
     fake_agent:depart,
