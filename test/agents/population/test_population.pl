@@ -166,6 +166,13 @@ test(a_turn_costs_a_tick) :-
     fake_host:time(Time),
     Time =:= 1,
     did_just([send(q, leave), move(next)]).
+test(lifetime_is_counted_in_ticks) :-
+    member_of(10, 10, [setting(tick, 2)]),
+    fake_agent:depart,
+    account(_, Lifetime),
+    Lifetime =:= 9,
+    fake_host:time(Time),
+    Time =:= 2.
 test(the_first_agent_never_dies, Lifetime == inf) :-
     member_of(10, inf, []),
     fake_agent:depart,
@@ -274,8 +281,8 @@ test(returning_agent_goes_to_the_tail,
                     a-leave ], Told).
 test(single_agent_gets_the_next_turn, Told == [a-turn(1), a-turn(1)]) :-
     queue_answers([a-join, a-leave, a-join, a-leave], Told).
-test(agent_is_in_the_queue_once, Told == [a-turn(1)]) :-
-    queue_answers([a-join, a-join, a-leave], Told).
+test(agent_is_in_the_queue_once, Told == [a-turn(1), b-turn(1)]) :-
+    queue_answers([a-join, b-join, a-join, a-leave, b-leave], Told).
 test(absent_agent_cannot_leave, Told == [a-turn(1)]) :-
     queue_answers([b-leave, a-join], Told).
 test(dying_agents_get_an_answer, Told == [a-turn(1), a-gone, b-turn(1)]) :-
