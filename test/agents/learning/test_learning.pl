@@ -165,6 +165,12 @@ test(bag_is_emptied_and_not_shared,
     lives,
     fake_agent:shareable(Own),
     fake_agent:bag(Bag).
+test(units_of_the_bag_are_not_passed_on, Units == [a-1]) :-
+    learner([], []),
+    assertz(fake_agent:shareable([a-1])),
+    assertz(fake_agent:bag([b-2])),
+    fake_agent:respond(share(here), p),
+    did([send(p, shared(units(Units, none)))]).
 test(gain_continues_the_search,         % 10, 9, + 5 = 10, 3.68, + 5 = 8.68,
      Count == 4) :-                     % 1.17, 0.16
     learner([], [queued(o)]),
@@ -259,6 +265,7 @@ test(solution_that_is_no_better_is_ignored, Executions-Bag == 1-[]) :-
     feeds_back([a-1], reached([a])),
     shares(o, [b-1], solution([b])),
     shares(o, [b-1], none),
+    feeds_back([], reached([a])),       % is not asked for
     lives,
     fake_agent:count(Executions),
     fake_agent:bag(Bag).
