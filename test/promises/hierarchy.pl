@@ -1,6 +1,6 @@
 %   What doc/hierarchy.md promises, see ../promises.pl.
 
-promise(leader_disposes_of_late_workers, hierarchy,
+promise(leader_disposes_of_late_workers, hierarchy_agents,
         'agents/hierarchy/leader.pl',
         "    Left is max(0, Start + Limit - Now),"-
         "    Left is max(0, Start + Limit - Now) + 5000,").

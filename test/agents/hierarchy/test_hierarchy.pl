@@ -76,6 +76,8 @@ workers(Parts, Counts) :-
 
 test(shares_follow_the_work, Counts == [6, 3, 3]) :-
     workers([4-200, 4-100, 4-100], Counts).
+test(work_is_that_of_all_workers, Counts == [6, 2]) :-
+    workers([6-100, 2-100], Counts).
 test(part_keeps_half_of_an_equal_share, Counts == [8, 2, 2]) :-
     workers([4-900, 4-10, 4-10], Counts).
 test(last_part_keeps_half_of_an_equal_share, Counts == [2, 2, 8]) :-

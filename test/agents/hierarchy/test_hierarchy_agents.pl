@@ -59,5 +59,10 @@ test(customer_asks_each_leader_for_its_hosts,
     \+ fake_agent:main,
     did(Acts),
     findall(To-What, member(send(To, What), Acts), Sent).
+test(leader_waits_until_its_limit,
+     Ends == [ended(0, done), ended(10, late), ended(10, late)]) :-
+    fake_agent('agents/hierarchy/leader.pl', [limit(10)], []),
+    fake_mail(system-down(a, done)),
+    fake_agent:attend([a, b, c], 0, Ends).
 
 :- end_tests(hierarchy_agents).
