@@ -190,6 +190,7 @@ fine('p :- go, member(X, [a,b]), s(X), X == b.').  % later choice points
 fine('p :- go, ( s(X), log(X), fail ; true ).').
 fine('p :- member(X, [a,b]), go, ( s(X), fail ; true ).').
 fine('q(X) :- X > 3, move(a), s(X), X < 9. q(X) :- X =< 3, log(X).').
+fine('q(X) :- X > 3, move(a), X < 9. q(_) :- log(x).').       % chosen
 fine('q([]). q([H|T]) :- move(H), ( s(H) -> q(T) ; fail ).').
 fine('q([H|T]) :- move(H), H \\== a, q(T). q([]).').         % other cases
 fine('p :- s(X), ( X == a -> fail ; true ), move(X).').
