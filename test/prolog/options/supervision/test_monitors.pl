@@ -6,6 +6,7 @@
 :- use_module(library(plunit)).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [member/2]).
+:- use_module(library(thread), [concurrent/3]).
 :- use_module(library(typhon)).
 
 /** <module> Monitors: an agent gets one message when another ends
@@ -97,6 +98,15 @@ test(monitored_after_its_end) :-
                  create([(main :- true)], A),
                  joined(A, done),
                  monitors(W, A),
+                 once_only(W, down(A, done)) )).
+test(several_reports_are_one_message) :-
+    with_hosts([alpha],
+               ( watcher(W, [], []),
+                 sleeper(A, []),
+                 monitors(W, A),
+                 findall(typhon_monitors:down(A, done), between(1, 4, _),
+                         Reports),
+                 concurrent(4, Reports, []),
                  once_only(W, down(A, done)) )).
 test(unknown_agent) :-
     with_hosts([alpha],
