@@ -113,10 +113,8 @@ promise(waits_no_longer_than_its_lifetime, population,
         "    (   receive(Queue-turn(Length0), 1000+0*Seconds)").
 promise(vanished_head_is_removed, population,
         'agents/population/queue.pl',
-        "    ;   Event = Head-leave\n\c
-         \s   )."-
-        "    ;   Event = Head-join\n\c
-         \s   ).").
+        "    (   receive(Agent-What, Seconds)"-
+        "    (   receive(Agent-What), Seconds = Seconds").
 promise(turn_at_once_without_a_queue, population,
         'agents/population/cloning.pl',
         "await_turn(Length) :-\n\c
