@@ -14,12 +14,12 @@ promise(sensor_ports_from_1, nxt,
         'prolog/typhon/bridges/nxt/sensors.pl',
         "    Input is Port-1."-
         "    Input is Port.").
-promise(holds_at_the_angle, nxt,
+promise(holds_at_the_angle, nxt_calls,
         'prolog/typhon/bridges/nxt/motors.pl',
         "    (   abs(Error) =< 2\n\c
          \s   ->  nxt_stop(Brick, Motor),"-
-        "    (   abs(Error) =< 20\n\c
-         \s   ->  nxt_stop(Brick, Motor),").
+        "    (   abs(Error) =< 2\n\c
+         \s   ->  nxt_float(Brick, Motor),").
 promise(deadline_of_a_call, nxt_faults,
         'prolog/typhon/bridges/nxt/link.pl',
         "    option(deadline(Seconds), Options, 3),"-
@@ -62,10 +62,12 @@ promise(no_pyserial, nxt_faults,
         "").
 promise(brick_is_not_connected, nxt_faults,
         'prolog/typhon/bridges/nxt/link.pl',
-        "          existence_error(nxt_brick, Brick)),\n\c
-         \s   atoms"-
-        "          existence_error(helper, Brick)),\n\c
-         \s   atoms").
+        "    (   brick(Brick, Port, Options)\n\c
+         \s   ->  true\n\c
+         \s   ;   existence_error(nxt_brick, Brick)"-
+        "    (   brick(Brick, Port, Options)\n\c
+         \s   ->  true\n\c
+         \s   ;   existence_error(helper, Brick)").
 promise(connected_once, nxt_faults,
         'prolog/typhon/bridges/nxt/link.pl',
         "open_link(Brick, _, _, _) :-\n\c

@@ -55,6 +55,13 @@ test(motor_must_be_bound) :-
                            call_cleanup(nxt_turn(lizzy, a, 50, 9),
                                         Begun = true),
                            assertion(Begun == true) ))).
+test(power_is_checked,
+     [ forall(( member(Power, [-101, 101]),
+                member(Call, [ nxt_run(b, a, Power), nxt_turn(b, a, Power, 9),
+                               nxt_turn_to(b, a, Power, 9),
+                               nxt_turn_to(b, a, Power, 9, 1) ]) )),
+       error(type_error(between(_, _), Power)) ]) :-
+    call(Call).
 test(real_brick, [condition(getenv('TYPHON_NXT', _))]) :-
     getenv('TYPHON_NXT', Port),
     connected(real, Port, [],
@@ -90,6 +97,9 @@ motors :-
     nxt_turn_to(lizzy, a, 80, 400, 30),
     nxt_tacho(lizzy, a, Degrees),
     assertion(abs(Degrees-400) =< 2),
+    nxt_motor(lizzy, a, Held),
+    assertion(memberchk(state(running), Held)),
+    assertion(memberchk(mode(7), Held)),        % on, brake, regulated
     nxt_turn(lizzy, b, 50, -90),
     nxt_await(lizzy, b, 30),
     nxt_tacho(lizzy, b, Back),
@@ -146,10 +156,13 @@ old_names(Brick, Port) :-
     close_nxt(lizzy).
 
 old_motors :-
-    set_motorspeed_nxt(lizzy, 'A', 100),
+    set_motorspeed_nxt(lizzy, 'A', 250),        % clipped to 100
     rotate_nxt(lizzy, 'A', 90, 'C'),
     nxt_tacho(lizzy, a, Degrees),
     assertion(abs(Degrees+90) =< 2),
+    move_forward_nxt(lizzy, 'B', -250),
+    nxt_motor(lizzy, b, Clipped),
+    assertion(memberchk(power(-100), Clipped)),
     move_forward_nxt(lizzy, 'B', 60),
     getmode_nxt(lizzy, 'B', 1),
     reverse_nxt(lizzy, 'B'),
