@@ -171,8 +171,8 @@ promise(child_may_be_a_supervisor, supervisor,
          create(Program, Agent, [host(Host)").
 promise(failed_child_is_kept, supervisor,
         'agents/supervisor.pl',
-        "    begun(Places, Program, [name(Name)|Options], no(place), Begun),"-
-        "    begun(Places, Program, Options, no(place), Begun),").
+        "    log(down(Name, Outcome)),\n"-
+        "    log(down(Name, Outcome)),\n    end(Agent),\n").
 promise(new_offer_replaces_the_first, directory,
         'prolog/typhon/options/directory/offers.pl',
         "    remove(Agent, Service),\n    forall(is_lapsed"-
@@ -205,7 +205,7 @@ promise(offers_are_selected_by_properties, directory,
 promise(farther_hosts_are_not_queried, directory,
         'prolog/typhon/options/directory/offers.pl',
         "    (   ( Radius == 0 ; Count >= Most )\n"-
-        "    (   ( Radius == 0 ; Count > 100*Most )\n").
+        "    (   ( Radius == 0 ; Count > Most )\n").
 promise(offers_are_found_within_the_radius, directory,
         'prolog/typhon/options/directory/offers.pl',
         "    Less is Radius-1."-"    Less is max(1, Radius-1).").
