@@ -54,9 +54,7 @@ promise(monitors_follow_both_agents, monitors,
          post_on(Id, [system-down(Agent, Outcome)]).").
 promise(second_monitor_has_no_effect, monitors,
         'prolog/typhon/options/supervision/monitors.pl',
-        "    format(atom(Key), '~w ~w', [Watcher, Agent])."-
-        "    gensym(x, X),\n    \c
-         format(atom(Key), '~w ~w ~w', [Watcher, Agent, X]).").
+        "add(Key, _, _, false) :-\n    monitor(Key, _, _),\n    !.\n"-"").
 promise(lost_agent_is_disposed_of, monitors,
         'prolog/typhon/options/supervision/monitors.pl',
         "    ;   orphans_end(Agents),\n"-"    ;   true,\n").
@@ -76,8 +74,8 @@ promise(monitors_are_restored, restored,
         "    assertz(monitor(Key, Watcher, Agent)).").
 promise(goal_of_a_monitor_is_called_once, monitors,
         'prolog/typhon/options/supervision/monitors.pl',
-        "    retract(goal(N, Goal)),\n    !,\n    call_cleanup("-
-        "    goal(N, Goal),\n    !,\n    call_cleanup(").
+        "    catch(ignore(call(Goal, Agent, Outcome)), Ball,"-
+        "    catch(forall(call(Goal, Agent, Outcome), true), Ball,").
 promise(monitoring_needs_no_host, monitors,
         'prolog/typhon/options/supervision/monitors.pl',
         "    runtime_acquire(monitor(N), []),\n"-"").

@@ -341,6 +341,15 @@ test(agent_of_this_process, [cleanup(forget)]) :-
                  agent_monitor(bob, note),
                  ends(A, true),
                  reported(A, done) )).
+test(goal_with_two_solutions_is_called_once,
+     [cleanup(forget), true(Notes == [first])]) :-
+    with_hosts([alpha],
+               ( sleeper(A, []),
+                 agent_monitor(A, [Id,_]>>( member(N, [first,second]),
+                                            note(Id, N) )),
+                 ends(A, true),
+                 reported(A, first) )),
+    findall(N, down(A, N), Notes).
 test(goal_that_raises, [cleanup(forget)]) :-
     with_hosts([alpha],
                ( sleeper(A, []),
