@@ -270,13 +270,13 @@ test(payloads_of_an_agent, Results == [ok,over(payloads)]) :-
 test(messages_that_fit_into_a_mailbox,
      Counts == [0-0,2-2,2-3]) :-
     setup_call_cleanup(
-        assertz(typhon_quota_agents:refused(nobody, [])),   % an alarm is set
+        assertz(typhon_quota_agents:refused(owner, [])),   % an alarm is set
         findall(Fits-N,
                 ( member(N, [0,2,3]), length(Mail, N),
                   maplist(=(mail(x, y, z)), Mail),
-                  typhon_quota_agents:fits(2, h, nobody, Mail, Fitting),
+                  typhon_quota_agents:fits(2, h, owner, Mail, Fitting),
                   length(Fitting, Fits) ), Counts),
-        retractall(typhon_quota_agents:refused(nobody, _))).
+        retractall(typhon_quota_agents:refused(owner, _))).
 test(mail_that_an_agent_brings, Verdicts == [yes,refused(quota(mailbox))]) :-
     with_quotas([mailbox(2)],
                 findall(V, ( member(Mail, [[x,y],[x,y,z]]),
