@@ -23,8 +23,9 @@ of signals send.
 %   Calls Start and Report, waits for SIGTERM, SIGINT or SIGHUP, and
 %   calls Stop.
 %
-%   All calls are in a thread of its own: while the main thread creates
-%   threads, a signal may reach a new thread, and would be lost.
+%   All calls are in a thread of its own: Prolog loses a signal that reaches a
+%   thread which has just begun. Threads that the main thread has not created
+%   block SIGINT from the first, but no other signal.
 
 run_until_stopped(Start, Report, Stop) :-
     on_stop_signals(stop_requested),

@@ -253,7 +253,7 @@ orders(Dir) :-
                Program),
     with_typhon([network, 'ring(3)', '--processes', 2], Pid, N1,
                 ( orders(N1, Program),
-                  process_kill(Pid, term),
+                  process_kill(Pid, int),
                   wait_for_end(Pid, 20, Status)
                 )),
     assertion(Status == exit(0)).
@@ -349,7 +349,7 @@ serve_and_print(Dir) :-
     with_typhon([log, File, '--serve'], Pid, Log,
                 ( with_typhon([host, alpha, '--log', Log], _, Address,
                               log_something(Dir, Address)),
-                  process_kill(Pid, term),
+                  process_kill(Pid, int),
                   wait_for_end(Pid, 10, Status)
                 )),
     assertion(Status == exit(0)),

@@ -51,7 +51,7 @@ twice(Tmp) :-
     with_typhon(Args, Again, Hosts,
                 ( typhon([send, Agent, hello], exit(0), _),
                   typhon([join, Agent, '--timeout', 20], exit(0), ["done"]),
-                  process_kill(Again, term),
+                  process_kill(Again, int),
                   wait_for_end(Again, 20, exit(0)) )),
     typhon([journal, Dir, '--check'], exit(0), Lines),
     forall(member(Text, [ "process1:", "process2:", "host n2", "1 outcome",

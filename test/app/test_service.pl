@@ -6,7 +6,7 @@
 :- use_module('../lib/texts', [write_file/3]).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [last/2, member/2]).
 :- use_module(library(plunit)).
 :- use_module(library(process),
               [process_create/3, process_kill/2, process_wait/2]).
@@ -35,7 +35,7 @@ test(runs_in_any_environment,
                                'unset LANG LC_ALL;', 'LC_ALL=POSIX;',
                                'LC_ALL=no_SUCH;', 'cd /proc;'])),
        true(Status == exit(0)) ]) :-
-    served([Setting, 'export HOME TZ LC_ALL;'], '', signals([term]), Status, _).
+    served([Setting, 'export HOME TZ LC_ALL;'], '', signals([int]), Status, _).
 test(text_does_not_depend_on_the_locale,
      [ forall(member(Locale, ['C', 'POSIX', 'C.UTF-8'])),
        true(Line == "X=h\u00e9\u4e2d") ]) :-
@@ -77,7 +77,8 @@ test(full_output_is_reported) :-
 test(unit_sets_what_names_need) :-
     project_file('app/packaging/systemd/typhon@.service', Unit),
     read_file_to_string(Unit, Text, []),
-    assertion(sub_string(Text, _, _, _, "LANG=C.UTF-8")).
+    forall(member(Line, ["LANG=C.UTF-8", "KillSignal=SIGINT"]),
+           assertion(sub_string(Text, _, _, _, Line))).
 
 :- end_tests(service).
 
@@ -111,8 +112,22 @@ served(Before, After, signals(Signals), Status, Files) :-
                    findall(File, ( between(0, 2, N), other_file(Pid, N, File) ),
                            Files),
                    forall(member(Signal, Signals), process_kill(Pid, Signal)),
-                   wait_for_end(Pid, 60, Status) ),
+                   last(Signals, Last),
+                   ended_by(Last, Pid, Status) ),
                  ended(Pid)).
+
+%   SWI-Prolog may lose a signal other than SIGINT, see doc/install.md.
+
+ended_by(int, Pid, Status) :-
+    !,
+    wait_for_end(Pid, 60, Status).
+ended_by(Signal, Pid, Status) :-
+    wait_for_end(Pid, 20, Status0),
+    (   Status0 == timeout
+    ->  process_kill(Pid, Signal),
+        wait_for_end(Pid, 60, Status)
+    ;   Status = Status0
+    ).
 
 ended(Pid) :-
     catch(( process_kill(Pid, kill), process_wait(Pid, _) ),

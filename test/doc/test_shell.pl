@@ -404,7 +404,7 @@ needed_network(Command, Dir) :-
 needed_network(_, _).
 
 end_servers :-
-    forall(server(Pid, _), process_kill(Pid, term)),
+    forall(server(Pid, _), process_kill(Pid, int)),
     forall(retract(server(Pid, _)),
            ( wait_for_end(Pid, 30, _),
              kill_process(Pid) )).

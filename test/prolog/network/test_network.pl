@@ -189,7 +189,7 @@ gone(Agent) :-
     agent_join(Agent, done, 10).
 
 %   There are no more processes than hosts, no command line or environment has
-%   the cookie, and SIGTERM ends the processes.
+%   the cookie, and SIGINT ends the processes.
 
 test(two_processes) :-
     quiet(with_network(ring(2), [processes(5), hosts([capacity(3)])],
@@ -204,7 +204,7 @@ test(two_processes) :-
                  ( format(atom(File), '/proc/~w/~w', [Pid, Which]),
                    read_file_to_string(File, Text, [encoding(octet)]),
                    \+ sub_string(Text, _, _, _, Cookie) )),
-          forall(member(Pid, Pids), process_kill(Pid, term)),
+          forall(member(Pid, Pids), process_kill(Pid, int)),
           wait_until(ended(Pids), 10) ))).
 test(two_networks_at_once, Both == []) :-
     with_network(ring(3), [processes(2)], _, HostsA,

@@ -167,7 +167,7 @@ start_delta :-
 
 stop_delta :-
     retract(delta(Pid, Out)),
-    process_kill(Pid, term),
+    process_kill(Pid, int),
     process_wait(Pid, _),
     close(Out).
 

@@ -712,7 +712,7 @@ elsewhere(Out, Pid, Names) :-
                 create([main], A, [host(alpha)]),
                 atom_string(A, Text),
                 feed_event(Feed, [_, Text, "ended", "done"], _) )),
-    process_kill(Pid, term),
+    process_kill(Pid, int),
     wait_for_end(Pid, 10, exit(0)).
 
 %   make demo-page: sixty hosts at work, until Ctrl-C.
