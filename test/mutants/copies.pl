@@ -11,15 +11,14 @@ Files are named from the directory of the project on: `prolog/typhon.pl`.
 *Threading*: the main thread only, as for test/run.pl.
 */
 
-:- use_module('../lib/common', [project_file/2, with_tmp_dir/1]).
+:- use_module('../lib/common',
+              [project_file/2, wait_for_end/3, with_tmp_dir/1]).
 :- use_module('../lib/left_behind', [kill_left_behind/2, suite_mark/2]).
 :- use_module(library(apply), [exclude/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(process),
-              [ process_create/3, process_kill/2, process_wait/2,
-                process_wait/3
-              ]).
+              [process_create/3, process_kill/2, process_wait/2]).
 
 :- meta_predicate with_copy(1), in_copy(1, +).
 
@@ -85,7 +84,7 @@ suite_in_copy(Copy, Suite, limits(Processor, Seconds), Result) :-
     result(Status, Left, Results, Result).
 
 ended(Pid, Seconds, Status) :-
-    process_wait(Pid, Status0, [timeout(Seconds)]),
+    wait_for_end(Pid, Seconds, Status0),
     (   Status0 == timeout
     ->  process_kill(Pid, kill),
         process_wait(Pid, _),

@@ -2,10 +2,12 @@
 :- use_module('../lib/common').
 :- use_module('../lib/texts', [write_file/2]).
 :- use_module('../mutants/changes').
+:- use_module('../mutants/copies', [suite_in_copy/4]).
 :- use_module('../mutants/equivalent', [outdated_equivalent/1]).
 :- use_module('../promises', [promise/5, promise_problem/1]).
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(filesex),
+              [directory_file_path/3, make_directory_path/1]).
 :- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(plunit)).
 
@@ -55,6 +57,13 @@ term_of(In) :-
     ;   true
     ).
 
+waits_for_ever(Result, Dir) :-
+    directory_file_path(Dir, test, Tests),
+    make_directory_path(Tests),
+    directory_file_path(Tests, 'suite.pl', Runner),
+    write_file(Runner, ":- thread_get_message(never).\n"),
+    suite_in_copy(Dir, 'any.pl', limits(10, 1), Result).
+
 :- begin_tests(mutants).
 
 test(each_kind_of_change_is_made, Missing == []) :-
@@ -75,6 +84,8 @@ test(changed_program_is_a_program_with_as_many_lines, Faults == []) :-
                    split_string(Text, "\n", "", Lines),
                    length(Lines, 11) ) ),
             Faults).
+test(suite_that_waits_for_ever_is_ended, Result == killed(hangs)) :-
+    with_tmp_dir(waits_for_ever(Result)).
 test(equivalent_changes_are_still_possible, Outdated == []) :-
     findall(File, outdated_equivalent(File), Outdated).
 test(no_change_leaves_the_program_as_it_was, [fail]) :-
