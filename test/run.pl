@@ -266,7 +266,7 @@ start_suite(File, by(Quick, Dir), job(File, Mark, Log, Results, Pid, Start)) :-
         suite_process(Swipl,
                       [ '--on-error=print', '--on-warning=print',
                         Runner, '--', File, Results
-                      ], Out, Mark, Pid),
+                      ], Out, ['TYPHON_SUITE'=Mark, 'TYPHON_QUICK'=Quick], Pid),
         close(Out)).
 
 runs(File, _, Swipl) :-
@@ -276,12 +276,11 @@ runs(File, _, Swipl) :-
     current_prolog_flag(executable, Swipl).
 runs(_, Quick, Quick).
 
-suite_process(Swipl, Args, Out, Mark, Pid) :-
+suite_process(Swipl, Args, Out, Environment, Pid) :-
     project_file('.', Root),
     process_create(Swipl, Args,
                    [ stdin(null), stdout(stream(Out)), stderr(stream(Out)),
-                     cwd(Root), environment(['TYPHON_SUITE'=Mark]),
-                     process(Pid)
+                     cwd(Root), environment(Environment), process(Pid)
                    ]).
 
 ended_job(Jobs, Job, Status) :-

@@ -4,7 +4,8 @@
 
 A network of two processes, an agent that visits the other host, a message, a
 log, the page. The program prints what came of it, the same each time, and
-ends.
+ends. The other process runs the program that the variable TYPHON_QUICK names, if
+there is one: nothing of the user comes there.
 
 *Threading*: the main thread.
 */
@@ -16,13 +17,22 @@ ends.
    set_prolog_flag(iso, Iso).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2]).
+:- use_module(library(prolog_wrap), [wrap_predicate/4]).
 :- use_module(library(readutil), [read_file_to_terms/3]).
 :- use_module(library(typhon)).
+:- use_module(library(typhon/network/children), []).
 
 :- initialization(life, main).
 
 life :-
+    children_start_quickly,
     with_tmp_dir(life).
+
+children_start_quickly :-
+    getenv('TYPHON_QUICK', Quick),
+    !,
+    wrap_predicate(typhon_children:swipl(Swipl), quick, _, Swipl=Quick).
+children_start_quickly.
 
 life(Dir) :-
     directory_file_path(Dir, log, Log),

@@ -135,7 +135,7 @@ test(any_predicate_may_be_defined, Culprits == []) :-
     random_permutation(All, Drawn0),
     length(Drawn, Count),
     append(Drawn, _, Drawn0),
-    parts([get_time/1, string_concat/3, split_string/4|Drawn], 50, Parts),
+    parts([get_time/1, string_concat/3, split_string/4|Drawn], 101, Parts),
     findall(Culprit,
             ( member(Part, Parts), facts(Part, Lines),
               culprits(after, Lines, Some), member(Culprit, Some) ),
