@@ -262,7 +262,7 @@ test(large_data_in_both_directions) :-
 much_both_ways(Ours) :-
     keys_of(beta, Ours, Dir),
     with_peers([beta-[host([tls(Dir)])]],
-               with_secure_host(Ours, much_both_ways(15))).
+               with_secure_host(Ours, much_both_ways(8))).
 
 %   Agents of 100 kB cross each other while small ones hop.
 
@@ -277,7 +277,7 @@ much_both_ways(Rounds, Address) :-
                                  move(O), move(H), main),
                         main ]),
     findall(Agent,
-            ( member(Size-Left, [big-Rounds, big-Rounds, small-200, small-200]),
+            ( member(Size-Left, [big-Rounds, big-Rounds, small-100, small-100]),
               ( Size == big -> Loads = [load(Load)] ; Loads = [] ),
               agent_create(Program, Agent,
                            [facts([left(Left), other(Beta)|Loads])]) ),
