@@ -393,9 +393,12 @@ all_killed(Network) :-
 
 test(busy_agent_does_not_delay_the_stop, true(Seconds < 25)) :-
     Busy = [(:- agent(busy, [])), ( main :- repeat, fail )],
+    Soon = set_setting(typhon_hosting:stop_seconds, 0.3),
     seconds(with_network(ring(4), [processes(2)], _, Hosts,
                          forall(member(Host, Hosts),
-                                agent_create(clauses(Busy), _, [host(Host)]))),
+                                ( remote(Host, Soon),
+                                  agent_create(clauses(Busy), _,
+                                               [host(Host)]) ))),
             Seconds).
 test(children_end_when_their_parent_is_killed,
      forall(member(Signal, [kill, term]))) :-
