@@ -31,7 +31,7 @@ Each call has a time-out: its result is yes(Goal), `no`, raised(Formal),
 answers, and puts it in the queue `chaos_answers`.
 */
 
-:- use_module('../lib/common', [free_port/1, project_file/2]).
+:- use_module('../lib/common', [free_port/1, project_file/2, python/1]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
@@ -347,11 +347,6 @@ cluster_answers(Answers) :-
                 /*******************************
                 *            PROXIES           *
                 *******************************/
-
-python('/usr/bin/python3') :-
-    exists_file('/usr/bin/python3'),
-    !.
-python(path(python3)).
 
 start_proxies :-
     project_file('test/chaos/proxies.py', File),

@@ -12,6 +12,7 @@
             wait_until/2,               % :Goal, +Seconds
             elapsed/2,                  % :Goal, -Seconds
             with_swipl/5,               % +Args, -Pid, -In, -Out, :Goal
+            python/1,                   % -Executable
             run_swipl/5,                % +Args, +Options, -Status, -Out, -Err
             wait_for_end/3,             % +Pid, +Seconds, -Status
             stop_process/1,             % +Pid
@@ -396,6 +397,16 @@ run_process(Args, Options, Seconds, Status) :-
         process_create(Swipl, Args, [process(Pid)|Options]),
         wait_for_end(Pid, Seconds, Status),
         kill_swipl(Pid)).
+
+%!  python(-Executable) is det.
+%
+%   The interpreter of the system, not another one earlier in PATH, which may be
+%   a script that looks for one.
+
+python('/usr/bin/python3') :-
+    exists_file('/usr/bin/python3'),
+    !.
+python(path(python3)).
 
 %!  wait_for_end(+Pid, +Seconds, -Status) is det.
 %

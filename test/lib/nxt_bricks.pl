@@ -16,8 +16,7 @@
             send_bytes/2,               % +Line, +Bytes
             receive/2,                  % +Line, -Reply
             receive_bytes/3,            % +Line, +Count, -Bytes
-            hex_list/2,                 % ?Hex, ?Bytes
-            python/1                    % -Executable
+            hex_list/2                  % ?Hex, ?Bytes
           ]).
 
 /** <module> Simulated bricks and worlds as processes of their own
@@ -29,7 +28,7 @@ digits, without the two bytes of length.
 *Threading*: the predicates may be called in any thread.
 */
 
-:- use_module(common, [project_file/2, wait_until/2]).
+:- use_module(common, [project_file/2, python/1, wait_until/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(process), [process_create/3, process_kill/2,
                                  process_wait/2, process_wait/3]).
@@ -39,15 +38,6 @@ digits, without the two bytes of length.
     with_brick(+, -, 0),
     with_world(+, +, -, 0),
     with_line(+, -, 0).
-
-%!  python(-Executable) is det.
-%
-%   The interpreter of the system, not another one earlier in PATH.
-
-python('/usr/bin/python3') :-
-    exists_file('/usr/bin/python3'),
-    !.
-python(path(python3)).
 
 %!  with_brick(+Args:list, -Brick, :Goal) is semidet.
 %

@@ -20,8 +20,8 @@ endpoint.
 *Threading*: for the main thread of a test, but for peer_crash/1.
 */
 
-:- use_module(common, [ free_port/1, is_dead/1, project_file/2, stop_process/1,
-                         wait_until/2 ]).
+:- use_module(common, [ free_port/1, is_dead/1, project_file/2, python/1,
+                         stop_process/1, wait_until/2 ]).
 :- use_module(cutting_proxy, [proxy_start/3, proxy_stop/1]).
 :- use_module(frame_proxy, [frame_proxy_start/4, frame_proxy_stop/1]).
 :- use_module(relay, [relay_admit/1, relay_refuse/1]).
@@ -105,10 +105,11 @@ launch(Peer) :-
     project_file('test/lib/peer_main.pl', Main),
     current_prolog_flag(executable, Swipl),
     append([Swipl, '-g', peer_main, Main, '--'], Args, Argv),
+    python(Python),
     alone(Alone),
     setup_call_cleanup(
         open(File, append, Err),
-        process_create(path(python3), ['-c', Alone|Argv],
+        process_create(Python, ['-ISEc', Alone|Argv],
                        [ stdin(pipe(In)), stdout(pipe(Out)),
                          stderr(stream(Err)), process(Pid) ]),
         close(Err)),

@@ -15,7 +15,7 @@ It has its data in a temporary directory, and listens at a socket there.
 *Threading*: the main thread.
 */
 
-:- use_module(common, [project_file/2]).
+:- use_module(common, [project_file/2, python/1]).
 :- use_module(library(filesex),
               [delete_directory_and_contents/1, directory_file_path/3]).
 :- use_module(library(lists), [append/3, last/2]).
@@ -105,7 +105,8 @@ relay_start(Pid, In, Out) :-
     running(Dir, _, _),
     directory_file_path(Dir, '.s.PGSQL.5432', Socket),
     project_file('test/lib/vanishing_relay.py', File),
-    process_create(path(python3), [File, Socket],
+    python(Python),
+    process_create(Python, [File, Socket],
                    [stdin(pipe(In)), stdout(pipe(Out)), process(Pid)]),
     assertz(relay(In, Out)).
 

@@ -27,10 +27,11 @@ screen(Steps, Program, Rows, Dir) :-
     current_prolog_flag(executable, Swipl),
     append([[Screen], Steps, [--, Swipl, '-f', none, '-g',
              'set_prolog_flag(toplevel_prompt, \'?- \')', File]], Args),
+    python(Python),
     directory_file_path(Dir, out, OutFile),
     setup_call_cleanup(
         open(OutFile, write, OutStream),
-        ( process_create(path(python3), Args,
+        ( process_create(Python, Args,
                          [ stdin(null), stdout(stream(OutStream)),
                            cwd(Dir), process(Pid) ]),
           process_wait(Pid, Status) ),
