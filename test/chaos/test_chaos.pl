@@ -15,8 +15,8 @@ The long form is `make chaos`, see doc/chaos.md.
 
 %   Few events, but with this seed every kind of fault is among them.
 
-seconds(24).
-seed(46).
+seconds(16).
+seed(3600).
 
 :- dynamic report/2.                    % Scenario, Findings
 

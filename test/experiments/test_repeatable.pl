@@ -43,7 +43,7 @@ small(learning, 'learning/figure_4_13',
       [ size-2, settings-[[rho_max-3]], network-obstacle, obstacle_hosts-10 ]).
 small(sieve, 'sieve/figure_3_5',
       [ topology-random(8, 0.4), attacked-1, round-2, omega-8 ]).
-small(robots, 'robots/study_pole', [way-in_step]).
+small(robots, 'robots/study_pole', [way-in_step, every-1, telegram-0.05]).
 small(allocation, 'allocation/figure_7_1_to_7_3',
       [ mechanism-proposed, links-(dynamic), hosts-8, probability-0.4,
         eligible-3, required-2, allocators-2, duration-1 ]).
