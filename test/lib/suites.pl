@@ -17,6 +17,10 @@ or, with all others of its folder, `prolog/kernel/wire`.
 :- use_module(library(lists), [member/2]).
 
 %!  all_suites(-Files:list) is det.
+%
+%   Each process looks for them once.
+
+:- table all_suites/1.
 
 all_suites(Files) :-
     project_file(test, Test),
