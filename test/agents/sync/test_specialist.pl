@@ -313,23 +313,28 @@ test(specialists_live_and_heal) :-
         edges(Edges),
         [ processes(2), seed(3), clock(15), hosts([capacity(6)]),
           hop_time(uniform(0.1, 0.3)) ],
-        Hosts, Log,
-        ( population_start(main, Hosts, [1-sleep(1), 2-sleep(1), 3-sleep(1)],
-                           [ seed(3),
-                             settings([ threshold-5, rounding-floor,
-                                        tick-0.5 ]) ], Agents),
-          length(Agents, 3),
-          wait_until(in_progress(Log, 3), 30),
-          Hosts = [A,B|_],
-          task_fail(main, 1, [A, B], Failed),
-          Failed == [A, B],
-          wait_until(settled(Log, 10), 30) ), Events),
+        Hosts, Log, two_lose_their_first(Hosts, Log), Events),
     executions(Events, All),
     again(All, First, Again),
     length(First, 30),
     out_of_order(First, []),
     maplist([execution(1, _, _, _)]>>true, Again),
     length(Again, 2),
+    clones_live_and_die(Events).
+
+two_lose_their_first(Hosts, Log) :-
+    population_start(main, Hosts, [1-sleep(1), 2-sleep(1), 3-sleep(1)],
+                     [ seed(3),
+                       settings([threshold-5, rounding-floor, tick-0.5]) ],
+                     Agents),
+    length(Agents, 3),
+    wait_until(in_progress(Log, 3), 30),
+    Hosts = [A,B|_],
+    task_fail(main, 1, [A, B], Failed),
+    Failed == [A, B],
+    wait_until(settled(Log, 10), 30).
+
+clones_live_and_die(Events) :-
     populations(Events, [1, 2, 3], Steps),
     peak(total, Steps, _-Most),
     Most > 3,                           % there were clones

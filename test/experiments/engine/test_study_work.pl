@@ -4,6 +4,7 @@
 
 :- use_module('../../lib/common').
 :- use_module('../../lib/study_files', [study_command/4, with_study_file/4]).
+:- use_module('../../lib/texts', [file_lines/2]).
 :- use_module(library(apply), [include/3]).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex),
@@ -14,43 +15,11 @@
 :- use_module(library(readutil),
               [read_file_to_string/3, read_file_to_terms/3]).
 
-%   Each run writes the id of its process and its case to the file `log` beside
-%   the study.
-
-study([ 'study(toy, "A toy").',
-        'vary(what, [a, b]).',
-        'measure(m, Log, 1) :-',
-        '    What = Log.case.what,',
-        '    note(Log.case.seed-What),',
-        '    format("~w says it~n", [What]),',
-        '    work(What).',
-        'note(What) :-',
-        '    beside(log, File),',
-        '    current_prolog_flag(pid, Pid),',
-        '    setup_call_cleanup(open(File, append, Out),',
-        '        format(Out, "~q.~n", [run(Pid, What)]), close(Out)).',
-        'beside(Name, File) :-',
-        '    source_file(study_here, Here),',
-        '    file_directory_name(Here, Dir),',
-        '    atomic_list_concat([Dir, Name], /, File).',
-        'study_here.',
-        'work(fail) :- !, throw(error(existence_error(luck, here), _)).',
-        'work(ball) :- !, throw(ball).',
-        'work(kill) :- !, current_prolog_flag(pid, Pid),',
-        '    format(atom(Kill), "kill -9 ~d", [Pid]), shell(Kill), sleep(60).',
-        'work(halt) :- !, halt(7).',
-        'work(wait) :- !, sleep(100).',
-        'work(stuck) :- !, on_signal(term, _, ignore), sleep(100).',
-        'work(until) :- !, beside(go, Go), until(Go).',
-        'work(_).',
-        'until(File) :- exists_file(File), !.',
-        'until(File) :- sleep(0.05), until(File).'
-      ]).
-
 :- meta_predicate with_toy(-, -, 0).
 
 with_toy(Dir, File, Goal) :-
-    study(Lines),
+    project_file('test/lib/toy_study.pl', Toy),
+    file_lines(Toy, Lines),
     with_study_file(Lines, Dir, File, Goal).
 
 runs(Dir, File, Whats, More, Status, Text) :-
