@@ -47,7 +47,9 @@ reader(Goals, Count, Agent) :-
               result(Ms)),
              (take(N, Ms) :- (   N > 0,
                                  receive(mqtt-M, 20)
-                             ->  N1 is N-1,
+                             ->  self(Me),
+                                 leave(took(Me)),
+                                 N1 is N-1,
                                  Ms = [M|Rest],
                                  take(N1, Rest)
                              ;   Ms = []
@@ -56,6 +58,9 @@ reader(Goals, Count, Agent) :-
 
 ready(Agent) :-
     wait_until(remote(alpha, sense(ready(Agent))), 10).
+
+took_one(Agent) :-
+    wait_until(remote(alpha, sense(took(Agent))), 10).
 
 got(Agent, Messages) :-
     joined(Agent, done),
@@ -98,10 +103,10 @@ test(retained) :-
     at_broker([], ( remote(alpha, publish(r, first, [retain(true),qos(1),
                                                      wait(true)])),
                     reader(subscribe('r/#'), 2, A),
-                    wait_until(mail_or_taken(A), 10),
+                    took_one(A),
                     sleep(1.1),
                     reader(subscribe('r/#'), 2, B),
-                    sleep(0.3),
+                    took_one(B),
                     remote(alpha, publish(r, second, [qos(1)])),
                     got(A, As), got(B, Bs),
                     remote(alpha, publish(r, '', [retain(true),wait(true)])) )),
