@@ -54,12 +54,19 @@ commands(Mark, Before, Command, After) :-
     once(sub_atom(Command, _, _, _, Mark)),
     !.
 
+%   `swipl` is the program of this process, where it has that name.
+
 shell(Dir, Lines, Output) :-
     atomic_list_concat(Lines, '\n', Text),
+    current_prolog_flag(executable, Swipl),
+    file_directory_name(Swipl, Bin),
+    getenv('PATH', Path0),
+    atomic_list_concat([Bin, Path0], :, Path),
     setup_call_cleanup(
         process_create(path(sh), ['-ec', Text],
                        [ cwd(Dir), stdin(null), stdout(pipe(Out)),
-                         stderr(std), process(Pid) ]),
+                         stderr(std), process(Pid),
+                         environment(['PATH'=Path]) ]),
         read_string(Out, _, Output),
         close(Out)),
     process_wait(Pid, Status),
