@@ -17,9 +17,9 @@ test(power_failure_loses_no_acknowledged_commit, Wrong == []) :-
     with_tmp_dir(attacked([ processes(2), agents(10), hops(20), sync(full),
                             crash(0), power(0.1), most(6) ], Wrong)).
 
-test(five_thousand_hops_lose_and_duplicate_no_agent, Wrong == []) :-
-    with_tmp_dir(attacked([ processes(3), agents(100), hops(50),
-                            crash(0.00006), kill(1.5), most(30) ],
+test(ten_thousand_hops_lose_and_duplicate_no_agent, Wrong == []) :-
+    with_tmp_dir(attacked([ processes(3), agents(100), hops(100),
+                            crash(0.00003), kill(3), most(30) ],
                           Wrong)).
 
 %   Hosts stop and start again while agents hop and send, and each commit takes
