@@ -4,8 +4,8 @@
 
 A network of two processes, an agent that visits the other host, a message, a
 log, the page. The program prints what came of it, the same each time, and
-ends. The other process runs the program that the variable TYPHON_QUICK names, if
-there is one: nothing of the user comes there.
+ends. The other process runs the program that the variable TYPHON_QUICK names,
+if there is one: nothing of the user comes there.
 
 *Threading*: the main thread.
 */

@@ -153,8 +153,8 @@ command_line(Status, Out, Home) :-
 test(release_is_reproducible, [condition(a_clone), true(First == Second)]) :-
     with_tmp_dir(released([First, Second])).
 
-%   A commit of the working tree, so that changed files do not matter, and a clone
-%   of it: released in another second, as files have times in seconds.
+%   A commit of the working tree, so that changed files do not matter, and a
+%   clone of it: released in another second, as files have times in seconds.
 
 a_clone :-
     absolute_file_name(path(git), _, [access(execute), file_errors(fail)]).
