@@ -339,7 +339,8 @@ test(large_frames_in_both_directions,
 test(longest_frames, Count == 1) :-
     longest(Size),
     with_endpoint(with_peers(1, [A],
-        ( endpoint_peer:cross(A, Size, 1),
+        ( ask(A, echo, x, x),
+          endpoint_peer:cross(A, Size, 1),
           ask(A, count, x, Count) ))).
 test(answers_of_8_MB_at_once) :-
     with_endpoint(with_peers(1, [A],
