@@ -17,8 +17,8 @@ Agents on hosts of this process. An agent with on_message/2 remains for
 inspection when its goals are done.
 */
 
-%   lives(+Hosts, +Options, +Clauses, -Facts): of an agent of Clauses when it has
-%   no goals left.
+%   lives(+Hosts, +Options, +Clauses, -Facts): of an agent that has no goals
+%   left.
 
 lives(Hosts, Options, Clauses, Facts) :-
     with_hosts(Hosts, ( resident(Clauses, Options, Agent),
@@ -31,8 +31,9 @@ resident(Clauses, Options, Agent) :-
 raised_in_life(Hosts, Options, Goal, Error) :-
     lives(Hosts, Options,
           [ (main :- catch(Goal, error(E, _), true), note(E)),
-            (note(type_error(mobile_term, _)) :- !, assertz(s(mobile_term))),
-            (note(E) :- assertz(s(E))) ], Facts),
+            (note(E) :- subsumes_term(type_error(mobile_term, _), E)
+                      -> assertz(s(mobile_term))
+                       ; assertz(s(E))) ], Facts),
     memberchk(s(Error), Facts).
 
 %   ends(+Clauses, -Outcome, -Messages)
@@ -143,6 +144,10 @@ raises([alpha,beta-[capacity(0)]], [], Goal, move_refused(_, capacity)) :-
 raises([alpha-[capacity(1)]], [], clone(_), move_refused(_, capacity)).
 raises([alpha,beta], [static(true)], move(beta),
        permission_error(move, static_agent, _)).
+%   State that was changed, also after a hop, and cannot travel.
+raises([alpha,beta], [facts([r(0)])],
+       ( First, current_output(S), assertz(r(S)), move(To) ), mobile_term) :-
+    member(First-To, [true-beta, move(beta)-alpha]).
 
 raises(move(nowhere), move_refused(nowhere, unknown_host)).
 raises(move(_), instantiation_error).
@@ -166,9 +171,6 @@ raises(( G = Goal, findall(x, G, _) ),
     member(Goal, [ move(beta), clone(_), clone(beta, _), sleep(0.1),
                    receive(_), receive(_, 0), dispose ]),
     functor(Goal, Name, Arity).
-%   State that cannot travel, on the second host, too.
-raises(( First, current_output(S), assertz(r(S)), move(To) ), mobile_term) :-
-    member(First-To, [true-beta, move(beta)-alpha]).
 
 test(raises, [ forall(raises(Hosts, Options, Goal, Error)),
                true(subsumes_term(Error, Raised)) ]) :-
