@@ -1,32 +1,24 @@
 :- module(test_faults, []).
 :- use_module('../../../lib/common').
-:- use_module(library(apply), [maplist/2, maplist/3, maplist/4]).
+:- use_module(library(apply), [maplist/3, maplist/4]).
 :- use_module(library(lists), [member/2, sum_list/2]).
 :- use_module(library(plunit)).
-:- use_module(library(readutil), [read_stream_to_codes/2]).
-:- use_module(library(socket), [tcp_connect/3]).
 :- use_module('../../../lib/peers').
 :- use_module('../../../lib/travellers').
 
 /** <module> Faults of earlier platforms do not occur
 
-Peers that are silent, killed or restarted; unauthenticated clients; agents
-that hop without pause, 10,000 times. TYPHON_HOPS=100000 in the environment
+Peers that are silent, killed or restarted; agents that hop without pause,
+10,000 times. TYPHON_HOPS=100000 in the environment
 sets that number.
 */
 
 :- begin_tests(silent_peer).
 
-test(in_doubt_is_resolved_once) :-
-    with_doubt([a, b], silent_then_back).
-test(in_doubt_until_disposed_of) :-
-    with_doubt([a, b], killed_for_good).
-test(disposal_waits_while_in_doubt) :-
-    with_doubt([a, b], told_then_back).
-test(disposal_follows_the_agent) :-
-    with_doubt([a, b], disposed_then_back).
-test(clone_in_doubt) :-
-    with_doubt([a, b], clone_then_back).
+test(agent_in_doubt, forall(member(Goal, [ silent_then_back, killed_for_good,
+                                           told_then_back, disposed_then_back,
+                                           clone_then_back ]))) :-
+    with_doubt([a, b], Goal).
 test(end_precedes_the_answer,
      true(Outcome = raised(error(existence_error(agent, _), _)))) :-
     with_peers([a, b], ended_first(Outcome)).
@@ -120,28 +112,23 @@ ended_first(Outcome) :-
 steps_at(Peer, Id, Steps) :-
     peer_do(Peer, steps_here(Id, Steps)).
 
+%   The home is the source, another process, or the killed process; or it, or
+%   the process that the agent had reached, is restarted without any data, while
+%   others know the agent.
+
 :- begin_tests(killed_peer).
 
-test(agent_continues_at_its_source, forall(born(Born))) :-
+test(agent_continues_at_its_source, forall(member(Born, [a, c, b]))) :-
     with_doubt([a, b, c], restarted(Born)).
 test(agent_that_hopped_on_is_not_duplicated) :-
     with_doubt([a, b, c], got_away).
 test(agent_that_hopped_on_is_not_duplicated_without_its_home,
-     forall(home_of_lost(Home))) :-
-    with_doubt([a, b, c, d], got_away_from(Home)).
-test(ended_agent_is_not_duplicated,
-     forall(home_of_lost(Home))) :-
-    with_doubt([a, b, c, d], got_away_and_ended(Home)).
+     forall(( member(Home, [d, b]), member(Steps, [20, 4]) ))) :-
+    with_doubt([a, b, c, d], got_away_from(Home, Steps)).
 test(move_to_a_dead_host_raises) :-
     with_peers([a, b], dead_host).
 
 :- end_tests(killed_peer).
-
-%   The home is the source, another process, or the killed process.
-
-born(a).
-born(c).
-born(b).
 
 %   An agent created on Born is sent from a to b, which is stopped, killed and
 %   restarted at its port.
@@ -194,20 +181,14 @@ got_away :-
     steps_at(a, Id, [0]),
     steps_at(c, Id, [2, 3]).
 
-%   The home d, or the process that the agent had reached, is restarted without
-%   any data; other processes know the agent.
+%   After four steps the agent ends there.
 
-home_of_lost(d).
-home_of_lost(b).
-
-got_away_from(Home) :-
-    got_away(Home, 20, Id),
-    peer_do(c, agent_here(Id)),
-    maplist(steps_at, [a, b, c], [Id, Id, Id], [[1, 2], [], [4]]).
-
-got_away_and_ended(Home) :-
-    got_away(Home, 4, Id),
-    peer_do(c, \+ agent_here(Id)),
+got_away_from(Home, Steps) :-
+    got_away(Home, Steps, Id),
+    (   Steps == 4
+    ->  peer_do(c, \+ agent_here(Id))
+    ;   peer_do(c, agent_here(Id))
+    ),
     maplist(steps_at, [a, b, c], [Id, Id, Id], [[1, 2], [], [4]]).
 
 got_away(Home, Steps, Id) :-
@@ -233,13 +214,16 @@ dead_host :-
     peer_do(a, try_move(B, [], Error)),
     Error == error(host_unreachable(B)).
 
-:- begin_tests(disposal_during_a_hop).
+:- begin_tests(constant_hops).
 
 test(disposed_agent_does_not_continue) :-
     with_peers([ a-[host([hop_time(uniform(0.005, 0.01))])], b ],
                disposed_while_leaving(60)).
+test(agents_hop, forall(member(Goal, [ bounce, namesakes,
+                                       stop_under_way(20) ]))) :-
+    with_peers([a, b], Goal).
 
-:- end_tests(disposal_during_a_hop).
+:- end_tests(constant_hops).
 
 %   Large agents leave, and take a while to be encoded; meanwhile they are
 %   disposed of. Each then ends on one of the two sides.
@@ -259,17 +243,6 @@ disposed_while_leaving(Count) :-
     wait_until(forall(member(Peer, [a, b]),
                       peer_do(Peer, \+ agent_here(_))), 10),
     peer_do(a, \+ status_here(_)).
-
-:- begin_tests(constant_hops).
-
-test(without_pause) :-
-    with_peers([a, b], bounce).
-test(two_agents_of_one_name) :-
-    with_peers([a, b], namesakes).
-test(host_stopped_under_way) :-
-    with_peers([a, b], stop_under_way(20)).
-
-:- end_tests(constant_hops).
 
 hops(Hops) :-
     (   getenv('TYPHON_HOPS', Atom)
@@ -349,110 +322,3 @@ accounted_for(Id) :-
                  ->  \+ peer_do(a, outcome_here(Id, _))
                  ;   peer_do(a, outcome_here(Id, disposed))
                  ) ), 10).
-
-:- begin_tests(unauthenticated_clients).
-
-test(unauthenticated_clients_do_not_disturb_others,
-     forall(client(Client))) :-
-    with_peers([a, b], visited_by(Client)).
-test(silent_processes_do_not_block) :-
-    with_peers([a, b], visited_by_silence).
-
-:- end_tests(unauthenticated_clients).
-
-client(garbage).
-client(http).
-client(goal).
-client(frame).
-client(oversize).
-client(hurried).
-
-%   client_bytes(Client, Bytes): the bytes that Client sends.
-
-client_bytes(garbage, [0, 255, 10, 13, 10, 1, 2, 3]).
-client_bytes(http, `GET / HTTP/1.0\r\n\r\n`).
-client_bytes(goal, `halt.\nhalt.\n`).
-client_bytes(frame, Bytes) :-
-    fast_term_serialized(request(1, remote, remote(a, halt)), String),
-    string_codes(String, Codes),
-    length(Codes, Length),
-    Bytes = [0, 0, 0, Length|Codes].
-client_bytes(oversize, Bytes) :-
-    length(Bytes, 100 000),
-    maplist(=(0'a), Bytes).
-client_bytes(hurried, []).
-
-%   Two agents hop between a and b all the time. One line is printed.
-
-visited_by(Client) :-
-    client_bytes(Client, Bytes),
-    peer_host(a, A),
-    peer_host(b, B),
-    findall(Id, ( between(1, 2, _), set_out(a, [B, A], 300, Id) ), Ids),
-    call_at(A, Bytes),
-    forall(member(Id, Ids), ended_done(a, Id, 300)),
-    wait_until(( peer_messages(a, Printed), Printed \== [] ), 10),
-    one_line(Printed).
-
-one_line(Printed) :-
-    (   Printed = [_]
-    ->  true
-    ;   print_message(error, format("printed: ~p", [Printed])),
-        fail
-    ).
-
-%   Sends Bytes to the endpoint of Host, and closes the connection when the
-%   endpoint does.
-
-call_at(Host, Bytes) :-
-    setup_call_cleanup(
-        connect(Host, In, Out),
-        catch(( format(Out, "~s", [Bytes]),
-                flush_output(Out),
-                (   Bytes == []
-                ->  true
-                ;   read_stream_to_codes(In, _)
-                ) ),
-              error(_, _),              % the endpoint has disconnected
-              true),
-        ( close(Out, [force(true)]),
-          close(In, [force(true)]) )).
-
-connect(Host, In, Out) :-
-    atomic_list_concat([_, Endpoint], '@', Host),
-    atomic_list_concat([Interface, PortAtom], ':', Endpoint),
-    atom_number(PortAtom, Port),
-    tcp_connect(Interface:Port, Stream, []),
-    stream_pair(Stream, In, Out),
-    set_stream(In, encoding(octet)),
-    set_stream(Out, encoding(octet)),
-    set_stream(In, timeout(20)).
-
-%   Fifty connections are silent: agents still arrive, also at a new peer.
-
-visited_by_silence :-
-    peer_host(a, A),
-    peer_host(b, B),
-    findall(In-Out, ( between(1, 50, _), connect(A, In, Out) ), Pairs),
-    call_cleanup(
-        travel(a, [B, A], 100),
-        forall(member(In-Out, Pairs),
-               ( close(Out, [force(true)]), close(In, [force(true)]) ))).
-
-:- begin_tests(wrong_cookie).
-
-test(wrong_cookie_prints_one_line_on_either_side) :-
-    with_peers([a, b, c-[setup(setenv('TYPHON_COOKIE', other))]],
-               wrong_cookie).
-
-:- end_tests(wrong_cookie).
-
-wrong_cookie :-
-    peer_host(a, A),
-    peer_host(b, B),
-    set_out(a, [B, A], 300, Id),
-    peer_do(c, try_move(A, [], Error)),
-    Error == error(host_unreachable(A)),
-    ended_done(a, Id, 300),
-    wait_until(( peer_messages(a, Printed), Printed \== [] ), 10),
-    one_line(Printed).
