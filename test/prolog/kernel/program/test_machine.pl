@@ -73,122 +73,115 @@ refuse(_, true).
 
 trace_program(Terms0, [(t(X) :- assertz(t_(X)))|Terms0]).
 
-runs(Terms0, Outcome, Trace) :-
-    trace_program(Terms0, Terms),
-    travel(Terms, test_machine:go, Outcome, Trace, _).
-
-runs(Terms0, Reply, Outcome, Trace) :-
+run(Terms0, Reply, Outcome, Trace) :-
     trace_program(Terms0, Terms),
     travel(Terms, test_machine:Reply, Outcome, Trace, _).
 
+%   runs(-Behaviour, -Clauses, -Outcome, -Trace): each move succeeds.
+
+runs(conjunction, [(main :- t(1), move(a), t(2), move(b), t(3))],
+     done, [1,2,3]).
+runs(binding_made_before_a_move, [(main :- X = 7, move(a), t(X))], done, [7]).
+runs(disjunction_keeps_the_branch_it_is_in,
+     [(main :- ( t(1), move(a), t(2) ; t(3) ))], done, [1,2]).
+runs(disjunction_second, [(main :- ( fail ; t(3) ), move(a), t(4))],
+     done, [3,4]).
+runs(a_move_commits, [(main :- member(X, [1,2]), t(X), move(a), X > 1)],
+     failed, [1]).
+runs(a_move_commits_to_the_clause,
+     [(main :- t(1), move(a), fail), (main :- t(2))], failed, [1]).
+runs(condition_then, [(main :- ( t(1), move(a), t(2) -> t(3) ; t(4) ))],
+     done, [1,2,3]).
+runs(condition_else, [(main :- ( t(1), move(a), fail -> t(3) ; t(4) ))],
+     done, [1,4]).
+runs(condition_is_cut_after_a_move,
+     [(main :- ( move(a), member(X, [1,2]) -> t(X), X > 1 ; t(9) ))],
+     failed, [1]).
+runs(soft_cut, [(main :- ( member(X, [1,2,3]) *-> t(X), X > 2, move(a)
+                         ; t(9) ))], done, [1,2,3]).
+runs(soft_cut_after_a_move,
+     [(main :- ( move(a), member(X, [1,2,3]) *-> t(X), X > 2 ; t(9) ))],
+     done, [1,2,3]).
+runs(soft_cut_else, [(main :- ( move(a), fail *-> t(1) ; t(9) ))],
+     done, [9]).
+runs(soft_cut_and_a_cut_in_the_second_solution,
+     [ (main :- ( ( true ; !, t(2), fail ; t(3) ), m(1) *-> fail ; t(4) )),
+       (m(X) :- ( X == 2 -> move(a) ; true )) ], failed, [2]).
+runs(own_predicate_named_like_a_library_predicate,
+     [ (main :- assertz((rule(X) :- t(1), move(X))), go(a), t(2)),
+       (go(X) :- append(X, _, _)), (append(X, _, _) :- rule(X)) ],
+     done, [1,2]).
+runs(if_without_else_fails, [(main :- ( move(a), fail -> t(1) ))],
+     failed, []).
+runs(negation, [(main :- \+ fail, t(1), move(a), \+ member(x, [y]), t(2))],
+     done, [1,2]).
+runs(cut_before, [(main :- p, t(2)), (p :- t(1), !, move(a)), (p :- t(9))],
+     done, [1,2]).
+runs(cut_after,
+     [ (main :- p, fail), (p :- move(a), member(_, [x,y]), t(1), !, t(1)),
+       (p :- t(9)) ], failed, [1,1]).
+runs(cut_is_local_to_its_clause,
+     [ (main :- move(a), member(X, [1,2]), p(X), X > 1),
+       (p(X) :- t(X), member(_, [x,y]), !, t(X)) ], done, [1,1,2,2]).
+runs(cut_in_a_condition_is_local,
+     [(main :- member(X, [1,2]), ( ! , move(a) -> t(X) ; true ), t(2))],
+     done, [1,2]).
+runs(call, [(main :- G = (t(1), move(a), t(2)), call(G))], done, [1,2]).
+runs(call_with_many,
+     [ (main :- call(sum, 1, 2, 3, 4, 5, 6, 7, 8, 9)),
+       (sum(A, B, C, D, E, F, G, H, I) :- move(a), X is A+B+C+D+E+F+G+H+I,
+                                          t(X)) ], done, [45]).
+runs(call_n, [ (main :- twice(go(5), 6)), (twice(G, X) :- call(G, X)),
+               (go(X, Y) :- t(X), move(a), t(Y)) ], done, [5,6]).
+runs(call_is_opaque_to_cut,
+     [(main :- member(X, [1,2]), call((t(X), !)), X > 1, move(a))],
+     done, [1,2]).
+runs(once_and_ignore,
+     [(main :- once((member(X, [1,2]), move(a), t(X))),
+               ignore((move(b), fail)), t(2))], done, [1,2]).
+runs(catch_around_a_move,
+     [(main :- catch((t(1), move(a), throw(oops)), E, t(caught(E))), t(3))],
+     done, [1,caught(oops),3]).
+runs(catch_ends_with_its_goal,
+     [(main :- catch(move(a), _, t(caught)), throw(late))], raised(late), []).
+runs(catch_nested,
+     [(main :- catch(( catch((move(x), throw(b)), b, t(inner(b))),
+                       move(y), throw(c) ), E, t(outer(E))))],
+     done, [inner(b),outer(c)]).
+runs(catch_undoes_bindings,
+     [(main :- move(a), catch((X = 1, throw(e)), e, true),
+               ( var(X) -> t(unbound) ; t(X) ))], done, [unbound]).
+runs(recovery_may_move, [(main :- catch(throw(x), x, (t(1), move(a), t(2))))],
+     done, [1,2]).
+runs(failure, [(main :- move(a), fail)], failed, []).
+runs(exception, [(main :- move(a), throw(boom))], raised(boom), []).
+runs(unknown_procedure, [(main :- move(a), nowhere_to_be_found)],
+     raised(error(existence_error(procedure, _), _)), []).
+runs(call_of_an_unbound_goal, [(main :- move(a), call(_))],
+     raised(error(instantiation_error, _)), []).
+runs(rules_in_the_state_may_move,
+     [(main :- rule(1)), (rule(X) :- t(X), move(a), Y is X+1, t(Y))],
+     done, [1,2]).
+runs(rules_asserted_later_may_move,
+     [ (main :- assertz((rule(X) :- t(X), move(a), t(2))), helper),
+       (helper :- rule(1), t(2)) ], done, [1,2,2]).
+runs(cut_in_a_state_rule,
+     [(main :- rule(_), move(a)), (rule(_) :- t(1), !), (rule(_) :- t(2))],
+     done, [1]).
+runs(control_where_prolog_cannot_stop,
+     [(main :- move(b), G = move(a), \+ call(G))],
+     raised(error(permission_error(call, control_predicate, move/1), _)), []).
+
 :- begin_tests(machine, [cleanup(code_clear)]).
 
-test(conjunction, O-T == done-[1,2,3]) :-
-    runs([(main :- t(1), move(a), t(2), move(b), t(3))], O, T).
-test(binding_made_before_a_move, T == [7]) :-
-    runs([(main :- X = 7, move(a), t(X))], _, T).
-test(disjunction_keeps_the_branch_it_is_in, T == [1,2]) :-
-    runs([(main :- ( t(1), move(a), t(2) ; t(3) ))], _, T).
-test(disjunction_second, T == [3,4]) :-
-    runs([(main :- ( fail ; t(3) ), move(a), t(4))], _, T).
-test(a_move_commits, O-T == failed-[1]) :-
-    runs([(main :- member(X, [1,2]), t(X), move(a), X > 1)], O, T).
-test(a_move_commits_to_the_clause, O-T == failed-[1]) :-
-    runs([(main :- t(1), move(a), fail), (main :- t(2))], O, T).
-test(condition_then, T == [1,2,3]) :-
-    runs([(main :- ( t(1), move(a), t(2) -> t(3) ; t(4) ))], _, T).
-test(condition_else, T == [1,4]) :-
-    runs([(main :- ( t(1), move(a), fail -> t(3) ; t(4) ))], _, T).
-test(condition_is_cut_after_a_move, O-T == failed-[1]) :-
-    runs([(main :- ( move(a), member(X, [1,2]) -> t(X), X > 1 ; t(9) ))],
-         O, T).
-test(soft_cut, T == [1,2,3]) :-
-    runs([(main :- ( member(X, [1,2,3]) *-> t(X), X > 2, move(a)
-                   ; t(9) ))], _, T).
-test(soft_cut_after_a_move, T == [1,2,3]) :-
-    runs([(main :- ( move(a), member(X, [1,2,3]) *-> t(X), X > 2
-                   ; t(9) ))], _, T).
-test(soft_cut_else, T == [9]) :-
-    runs([(main :- ( move(a), fail *-> t(1) ; t(9) ))], _, T).
-test(soft_cut_and_a_cut_in_the_second_solution, O-T == failed-[2]) :-
-    runs([ (main :- ( ( true ; !, t(2), fail ; t(3) ), m(1) *-> fail ; t(4) )),
-           (m(X) :- ( X == 2 -> move(a) ; true ))
-         ], O, T).
-test(own_predicate_named_like_a_library_predicate, O-T == done-[1,2]) :-
-    runs([ (main :- assertz((rule(X) :- t(1), move(X))), go(a), t(2)),
-           (go(X) :- append(X, _, _)),
-           (append(X, _, _) :- rule(X)) ], O, T).
-test(if_without_else_fails, O == failed) :-
-    runs([(main :- ( move(a), fail -> t(1) ))], O, _).
-test(negation, T == [1,2]) :-
-    runs([(main :- \+ fail, t(1), move(a), \+ member(x, [y]), t(2))], _, T).
-test(cut_before, T == [1,2]) :-
-    runs([(main :- p, t(2)), (p :- t(1), !, move(a)), (p :- t(9))], _, T).
-test(cut_after, O-T == failed-[1,1]) :-
-    runs([(main :- p, fail),
-          (p :- move(a), member(_, [x,y]), t(1), !, t(1)), (p :- t(9))],
-         O, T).
-test(cut_is_local_to_its_clause, T == [1,1,2,2]) :-
-    runs([(main :- move(a), member(X, [1,2]), p(X), X > 1),
-          (p(X) :- t(X), member(_, [x,y]), !, t(X))], _, T).
-test(cut_in_a_condition_is_local, T == [1,2]) :-
-    runs([(main :- member(X, [1,2]), ( ! , move(a) -> t(X) ; true ), t(2))],
-         _, T).
-test(call, T == [1,2]) :-
-    runs([(main :- G = (t(1), move(a), t(2)), call(G))], _, T).
-test(call_with_many, T == [45]) :-
-    runs([(main :- call(sum, 1, 2, 3, 4, 5, 6, 7, 8, 9)),
-          (sum(A, B, C, D, E, F, G, H, I) :-
-               move(a), X is A+B+C+D+E+F+G+H+I, t(X))], _, T).
-test(call_n, T == [5,6]) :-
-    runs([(main :- twice(go(5), 6)), (twice(G, X) :- call(G, X)),
-          (go(X, Y) :- t(X), move(a), t(Y))], _, T).
-test(call_is_opaque_to_cut, T == [1,2]) :-
-    runs([(main :- member(X, [1,2]), call((t(X), !)), X > 1, move(a))], _, T).
-test(once_and_ignore, T == [1,2]) :-
-    runs([(main :- once((member(X, [1,2]), move(a), t(X))),
-                   ignore((move(b), fail)), t(2))], _, T).
-test(catch_around_a_move, T == [1,caught(oops),3]) :-
-    runs([(main :- catch((t(1), move(a), throw(oops)), E, t(caught(E))),
-                   t(3))], _, T).
-test(catch_ends_with_its_goal, O == raised(late)) :-
-    runs([(main :- catch(move(a), _, t(caught)), throw(late))], O, _).
-test(catch_nested, T == [inner(b),outer(c)]) :-
-    runs([(main :- catch(( catch((move(x), throw(b)), b, t(inner(b))),
-                           move(y), throw(c) ),
-                         E, t(outer(E))))], _, T).
-test(catch_undoes_bindings, T == [unbound]) :-
-    runs([(main :- move(a), catch((X = 1, throw(e)), e, true),
-                   ( var(X) -> t(unbound) ; t(X) ))], _, T).
+test(runs, [ forall(runs(_, Clauses, Outcome, Trace)),
+             true(subsumes_term(Outcome-Trace, O-T)) ]) :-
+    run(Clauses, go, O, T).
 test(error_of_the_move_itself, T == [refused,2]) :-
-    runs([(main :- catch(move(bad), error(refused, _), t(refused)), t(2))],
+    run([(main :- catch(move(bad), error(refused, _), t(refused)), t(2))],
          refuse, _, T).
 test(a_timeout_is_a_failure_in_a_condition, T == [late]) :-
-    runs([(main :- ( receive(_, 1) -> t(got) ; t(late) ))], refuse, _, T).
-test(recovery_may_move, T == [1,2]) :-
-    runs([(main :- catch(throw(x), x, (t(1), move(a), t(2))))], _, T).
-test(failure, O == failed) :-
-    runs([(main :- move(a), fail)], O, _).
-test(exception, O == raised(boom)) :-
-    runs([(main :- move(a), throw(boom))], O, _).
-test(unknown_procedure, [O = raised(error(existence_error(procedure, _), _))]) :-
-    runs([(main :- move(a), nowhere_to_be_found)], O, _).
-test(call_of_an_unbound_goal,
-     [O = raised(error(instantiation_error, _))]) :-
-    runs([(main :- move(a), call(_))], O, _).
-test(rules_in_the_state_may_move, T == [1,2]) :-
-    runs([(main :- rule(1)), (rule(X) :- t(X), move(a), Y is X+1, t(Y))],
-         _, T).
-test(rules_asserted_later_may_move, T == [1,2,2]) :-
-    runs([(main :- assertz((rule(X) :- t(X), move(a), t(2))), helper),
-          (helper :- rule(1), t(2))], _, T).
-test(cut_in_a_state_rule, T == [1]) :-
-    runs([(main :- rule(_), move(a)), (rule(_) :- t(1), !),
-          (rule(_) :- t(2))], _, T).
-test(control_where_prolog_cannot_stop,
-     [O = raised(error(permission_error(call, control_predicate, move/1),
-                       _))]) :-
-    runs([(main :- move(b), G = move(a), \+ call(G))], O, _).
+    run([(main :- ( receive(_, 1) -> t(got) ; t(late) ))], refuse, _, T).
 test(goals_are_source_goals,
      Goals =@= [(_->writeln(x);true), (a, ! ; b), !, main]) :-
     program_load(clauses([(:- agent(g)),
