@@ -19,53 +19,70 @@ made(Specs, Clauses, Result) :-
 
 child(Body, clauses([ (:- agent(child, [state([s/1])])), (main :- Body) ])).
 
-%   refused(+Program, -Formal): the error of its creation on a guarded host.
+%   refused(+Specs, +Create, -Formal): the error of an agent that calls Create.
 
-refused(Program, Formal) :-
-    made([alpha-[policy(guarded), cell(none)]],
-         [ (main :- catch(create(Program, _, []), error(F, _), true),
-                    result(F)) ],
+refused(Specs, Create, Formal) :-
+    made(Specs, [(main :- catch(Create, error(F, _), true), result(F))],
          Formal).
+
+guarded([alpha-[policy(guarded), cell(none)]]).
+
+%   invalid(-Specs, -Create, -Error)
+
+invalid([alpha-[capacity(1)]], create(Child, _, []),
+        move_refused(_, capacity)) :-
+    child(true, Child).
+invalid([alpha], create(_, _, []), instantiation_error).
+invalid([alpha], create(Child, a, []), uninstantiation_error(_)) :-
+    child(true, Child).
+invalid([alpha], create(Child, _, [hots(alpha)]),
+        domain_error(agent_option, hots(alpha))) :-
+    child(true, Child).
+invalid([alpha], create(Child, _, [host(nowhere)]), existence_error(host, _)) :-
+    child(true, Child).
+invalid(Guarded, create(Child, _, []), move_refused(_, policy(halt))) :-
+    guarded(Guarded),
+    child(halt, Child).
+invalid(Guarded, create(Program, _, []),
+        permission_error(call, sandboxed, _)) :-
+    guarded(Guarded),
+    member(Program, [ '/etc/passwd', library(lists), agents('../README'),
+                      agents('/etc/passwd'), agents(a/'..'/b) ]).
+invalid(Guarded, create(agents(no_such_program), _, []),
+        existence_error(source_sink, _)) :-
+    guarded(Guarded).
 
 :- begin_tests(children).
 
-test(child_of_clauses, [true(X-Name == hi-child)]) :-
-    child(( self(Id), receive(P-hello), send(P, hi(Id)) ), Child),
-    made([alpha],
+test(invalid, [ forall(invalid(Specs, Create, Error)),
+                true(subsumes_term(Error, F)) ]) :-
+    refused(Specs, Create, F).
+test(child_of_clauses, [ forall(( Specs = [alpha] ; guarded(Specs) )),
+                         true(sub_atom(Id, 0, _, _, 'child.')) ]) :-
+    child(( self(Id0), receive(P-hello), send(P, hi(Id0)) ), Child),
+    made(Specs,
          [ (main :- create(Child, C, []), send(C, hello),
-                    receive(C-hi(Id)), result(Id)) ],
-         Id),
-    sub_atom(Id, 0, _, _, 'child.'),
-    Name = child,
-    X = hi.
-test(child_of_a_file, [true(Name == alone)]) :-
+                    receive(C-hi(Id1)), result(Id1)) ],
+         Id).
+test(child_of_a_file, true(sub_atom(C, 0, _, _, 'alone.'))) :-
     made([alpha],
-         [ (main :- create(agents(robots/alone), C, []), result(C)) ],
-         C),
-    sub_atom(C, B, 1, _, '.'), !,
-    sub_atom(C, 0, B, _, Name).
-test(child_of_the_own_program, X == got(7)) :-
-    made([alpha],
-         [ (main :- r(Parent), !, s(N), send(Parent, got(N))),
-           (main :- self(Me), assertz(s(1)),
-                    create(self, C, [facts([s(7), r(Me)])]),
-                    receive(C-X), result(X)) ],
-         X).
-test(state_of_the_parent_is_not_inherited, X == []) :-
-    made([alpha],
+         [ (main :- create(agents(robots/alone), C0, []), result(C0)) ],
+         C).
+test(child_of_the_own_program_has_no_state_of_its_parent,
+     [ forall(( Specs = [alpha] ; guarded(Specs) )), X == [7] ]) :-
+    made(Specs,
          [ (main :- r(Parent), !, findall(N, s(N), Ns), send(Parent, Ns)),
            (main :- self(Me), assertz(s(1)),
-                    create(self, C, [facts([r(Me)])]),
-                    receive(C-X), result(X)) ],
+                    create(self, C, [facts([s(7), r(Me)])]),
+                    receive(C-X0), result(X0)) ],
          X).
-test(child_on_another_host, [true(Host == beta)]) :-
-    child(( here(H), receive(P-_), send(P, H) ), Child),
+
+test(child_on_another_host, true(sub_atom(H, 0, _, _, 'beta@'))) :-
+    child(( here(H0), receive(P-_), send(P, H0) ), Child),
     made([alpha, beta],
          [ (main :- create(Child, C, [host(beta), name(bob)]), send(C, ask),
-                    receive(C-H), result(H)) ],
-         Address),
-    sub_atom(Address, 0, _, _, 'beta@'),
-    Host = beta.
+                    receive(C-H1), result(H1)) ],
+         H).
 test(several_in_one_goal, N == 5) :-
     child(( receive(P-_), send(P, 1) ), Child),
     made([alpha],
@@ -76,28 +93,6 @@ test(several_in_one_goal, N == 5) :-
            (take(Left, N) :- receive(_-1), N1 is N+1, L is Left-1,
                              take(L, N1)) ],
          N).
-test(full_host, F = move_refused(_, capacity)) :-
-    child(true, Child),
-    made([alpha-[capacity(1)]],
-         [ (main :- catch(create(Child, _, []), error(F, _), true),
-                    result(F)) ],
-         F).
-test(unbound_program, F == instantiation_error) :-
-    made([alpha],
-         [ (main :- catch(create(_, _, []), error(F, _), true), result(F)) ],
-         F).
-test(bound_agent, F = uninstantiation_error(_)) :-
-    child(true, Child),
-    made([alpha],
-         [ (main :- catch(create(Child, a, []), error(F, _), true),
-                    result(F)) ],
-         F).
-test(wrong_option, F == domain_error(agent_option, hots(alpha))) :-
-    child(true, Child),
-    made([alpha],
-         [ (main :- catch(create(Child, _, [hots(alpha)]), error(F, _), true),
-                    result(F)) ],
-         F).
 test(child_in_another_process, [true(Result == 42)]) :-
     child(( s(N), result(N) ), Child),
     no_leaks(with_peers([p1],
@@ -109,56 +104,23 @@ test(child_in_another_process, [true(Result == 42)]) :-
                          agent_result(A, C, 10),
                          agent_result(C, Result, 10),
                          agent_result(C, Result, 10) )) ))).
-test(no_such_host, F = existence_error(host, _)) :-
-    child(true, Child),
-    made([alpha],
-         [ (main :- catch(create(Child, _, [host(nowhere)]), error(F, _),
-                          true),
-                    result(F)) ],
-         F).
-
 :- end_tests(children).
 
 :- begin_tests(guarded_children).
 
-test(child_of_clauses, X == hi) :-
-    child(( receive(P-_), send(P, hi) ), Child),
-    made([alpha-[policy(guarded), cell(none)]],
-         [ (main :- create(Child, C, []), send(C, go), receive(C-X),
-                    result(X)) ],
-         X).
-test(child_of_the_own_program, X == got) :-
-    made([alpha-[policy(guarded), cell(none)]],
-         [ (main :- r(Parent), !, send(Parent, got)),
-           (main :- self(Me), create(self, C, [facts([r(Me)])]),
-                    receive(C-X), result(X)) ],
-         X).
-test(children_are_checked, F = move_refused(_, policy(halt))) :-
-    child(halt, Child),
-    refused(Child, F).
-test(no_files, [forall(member(Program, ['/etc/passwd', library(lists),
-                                         agents('../README'),
-                                         agents('/etc/passwd'),
-                                         agents(a/'..'/b)])),
-                F = permission_error(call, sandboxed, _)]) :-
-    refused(Program, F).
-test(missing_file, F = existence_error(source_sink, _)) :-
-    refused(agents(no_such_program), F).
-test(children_count_for_the_quota, [true(Formal == resource_error(clones))]) :-
+%   A hundred are too many.
+
+test(children_count_for_the_quota,
+     [ forall(member(Quota-What-Error,
+                     [ clones(3)-self-resource_error(clones),
+                       owner(agents(3))-Child-move_refused(_, _) ])),
+       true(Formal = Error) ]) :-
     child(sleep(100), Child),
-    made([alpha-[policy(guarded), cell(none), quota([clones(3)])]],
-         [ (main :- catch(many(100, Child), error(F, _), true), result(F)),
-           (many(0, _) :- !),
-           (many(N, Child) :- create(self, _, [facts([r(child)])]),
-                              N1 is N-1, many(N1, Child)) ],
-         Formal).
-test(agents_of_an_owner_are_limited, [true(Formal = move_refused(_, _))]) :-
-    child(sleep(100), Child),
-    made([alpha-[policy(guarded), cell(none), quota([owner(agents(3))])]],
-         [ (main :- catch(many(100, Child), error(F, _), true), result(F)),
-           (many(0, _) :- !),
-           (many(N, Child) :- create(Child, _, []),
-                              N1 is N-1, many(N1, Child)) ],
+    made([alpha-[policy(guarded), cell(none), quota([Quota])]],
+         [ (main :- catch(many(100), error(F, _), true), result(F)),
+           (many(0) :- !),
+           (many(N) :- create(What, _, [facts([s(1)])]), N1 is N-1,
+                       many(N1)) ],
          Formal).
 
 :- end_tests(guarded_children).

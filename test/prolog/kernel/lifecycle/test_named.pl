@@ -149,10 +149,10 @@ test(id_is_not_resolved) :-
 %   An agent of a network of other processes, wherever it is: this process
 %   alone does not create it.
 
-test(agent_in_another_process) :-
+test(agents_in_other_processes) :-
     no_leaks(setup_call_cleanup(
                  network_start(ring(2), Network, [processes(2)]),
-                 elsewhere(Network),
+                 ( elsewhere(Network), born_elsewhere(Network) ),
                  network_stop(Network))).
 
 elsewhere(Network) :-
@@ -170,15 +170,9 @@ elsewhere(Network) :-
 
 %   This process has created none of these agents.
 
-test(name_of_an_agent_that_ended_in_a_network) :-
-    no_leaks(setup_call_cleanup(
-                 network_start(ring(2), Network, [processes(2)]),
-                 born_elsewhere(Network),
-                 network_stop(Network))).
-
 born_elsewhere(Network) :-
     network_property(Network, hosts([First, _])),
-    remote(First, typhon_creation:agent_create(
+    remote(First, typhon:agent_create(
                       clauses([ (:- agent(ede, [])), (main :- receive(_)) ]),
                       Id, [])),
     agent_send(ede, go),
@@ -192,7 +186,7 @@ test(name_of_a_visitor_that_ended_here) :-
 came_and_ended :-
     peer_host(beta, Beta),
     address(alpha, Alpha),
-    remote(Beta, typhon_creation:agent_create(
+    remote(Beta, typhon:agent_create(
                      clauses([ (:- agent(ede, [])),
                                (main :- receive(_-go(H)), move(H)) ]),
                      Id, [])),
