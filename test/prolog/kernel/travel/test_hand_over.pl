@@ -62,24 +62,20 @@ test(agent_under_way_is_listed, true(memberchk(Id, Ids))) :-
     with_under_way([], Id,
         ( peer_do(a, findall(A, agent_property(A, home(_)), Ids)),
           goes_on(Id) )).
-test(messages_follow_in_order, Result == B-All) :-
-    numlist(1, 20, All),
-    with_under_way([], Id,
-        ( peer_host(b, B),
-          forall(member(N, All), peer_do(a, agent_send(Id, N))),
-          peer_signal(b, cont),         % a query would thaw the agent
-          result_of(Id, Result) )).
-test(messages_follow_in_order_after_a_query, Result == B-All) :-
+%   A query thaws the agent.
+
+test(messages_follow_in_order,
+     [ forall(member(Query, [ true,
+                              peer_do(a, agent_property(Id,
+                                                        state(in_transit))) ])),
+       Result == B-All ]) :-
     numlist(1, 20, All),
     with_under_way([], Id,
         ( peer_host(b, B),
           forall(member(N, All),
                  ( peer_do(a, agent_send(Id, N)),
-                   (   N =:= 10
-                   ->  peer_do(a, agent_property(Id, state(in_transit)))
-                   ;   true
-                   ) )),
-          goes_on(Id),
+                   ( N =:= 10 -> call(Query) ; true ) )),
+          peer_signal(b, cont),
           result_of(Id, Result) )).
 test(disposal_follows_the_agent, Outcome == disposed) :-
     with_under_way([], Id,
@@ -112,33 +108,37 @@ result_of(Id, Result) :-
     peer_do(a, agent_send(Id, end)),
     wait_until(peer_do(a, agent_result(Id, Result, 1)), 20).
 
+%   connected(:Goal): Goal is called with the host of b, which has had agents.
+
+:- meta_predicate connected(-, 0).
+
+connected(B, Goal) :-
+    with_peers([a, b], ( peer_host(a, A),
+                         peer_host(b, B),
+                         travel(a, [B, A], 4),
+                         call(Goal) )).
+
+raised_on_a(Error) :-
+    wait_until(peer_do(a, remote(a, take(raised(Error)))), 20).
+
 :- begin_tests(not_accepted).
 
-test(refused_for_a_token_raises_at_the_move,
-     Error == move_refused(B, token)) :-
-    with_peers([a, b],
-        ( peer_host(a, A),
-          peer_host(b, B),
-          travel(a, [B, A], 4),
-          peer_do(b, host_change(b, tokens([red]))),
-          mover(a, B),
-          wait_until(peer_do(a, remote(a, take(raised(Error)))), 20) )).
-test(refused_for_capacity_raises_at_the_move,
-     Error == move_refused(B, capacity)) :-
-    with_peers([a, b],
-        ( peer_host(a, A),
-          peer_host(b, B),
-          travel(a, [B, A], 4),
-          peer_do(b, host_change(b, capacity(0))),
-          mover(a, B),
-          wait_until(peer_do(a, remote(a, take(raised(Error)))), 20) )).
+test(refusal_raises_at_the_move,
+     [ forall(member(Change-Reason, [ tokens([red])-token,
+                                      capacity(0)-capacity ])),
+       Error == move_refused(B, Reason) ]) :-
+    connected(B,
+        ( peer_do(b, host_change(b, Change)),
+          peer_do(a, agent_create(
+              clauses([ (:- agent(mover, [])),
+                        (main :- catch(move(B), error(E, _),
+                                       leave(raised(E)))) ]),
+              _, [host(a)])),
+          raised_on_a(Error) )).
 test(unserializable_agent_raises_at_the_move,
      Error = type_error(mobile_term, _)) :-
-    with_peers([a, b],
-        ( peer_host(a, A),
-          peer_host(b, B),
-          travel(a, [B, A], 4),
-          peer_do(a, agent_create(
+    connected(B,
+        ( peer_do(a, agent_create(
               clauses([ (:- agent(carrier, [])),
                         (main :- stream_property(S, alias(user_error)),
                                  catch(go(S), error(E, _),
@@ -146,14 +146,11 @@ test(unserializable_agent_raises_at_the_move,
                                          leave(raised(type_error(K, x))) ))),
                         (go(S) :- to(B1), move(B1), atom(S)),
                         to(B) ]), _, [host(a)])),
-          wait_until(peer_do(a, remote(a, take(raised(Error)))), 20) )).
+          raised_on_a(Error) )).
 test(agent_that_stays_keeps_its_mail,
      [ forall(stays(Change, Held)), Mail == [1,2,3] ]) :-
-    with_peers([a, b],
-        ( peer_host(a, A),
-          peer_host(b, B),
-          travel(a, [B, A], 4),
-          peer_do(b, host_change(b, Change)),
+    connected(B,
+        ( peer_do(b, host_change(b, Change)),
           peer_do(a, agent_create(
               clauses([ (:- agent(stayer, [state([got/1])])),
                         (main :- receive(_-go), held(S),
@@ -175,12 +172,6 @@ stays(capacity(0), held(none)).
 stays(tokens([]), (held(S) :- stream_property(S, alias(user_error)))).
 
 :- end_tests(not_accepted).
-
-mover(Peer, To) :-
-    peer_do(Peer, agent_create(
-        clauses([ (:- agent(mover, [])),
-                  (main :- catch(move(To), error(E, _), leave(raised(E)))) ]),
-        _, [host(Peer)])).
 
 :- begin_tests(options_under_traffic).
 

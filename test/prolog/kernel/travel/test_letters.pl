@@ -1,6 +1,5 @@
 :- module(test_letters, []).
 :- use_module('../../../lib/common').
-:- use_module(library(apply)).
 :- use_module(library(lists)).
 :- use_module(library(plunit)).
 :- use_module(library(readutil)).
@@ -16,38 +15,46 @@ process is dead, that is reported to the sender.
 
 :- begin_tests(unreachable_process).
 
-test(mail_waits_for_a_route) :-
-    with_cut(waits_for_way).
-test(mail_in_order_behind_waiting_mail) :-
-    with_cut(waits_in_order).
-test(mail_in_order_behind_failed_attempts) :-
-    with_cut(waits_behind_tried).
-test(mail_in_order_at_the_new_host_of_the_agent) :-
-    with_cut(waits_where_it_comes).
+test(mail_waits, forall(member(Goal, [ waits_for_way, waits_in_order,
+                                       waits_behind_tried,
+                                       waits_where_it_comes ]))) :-
+    with_peers([ a-[setup(hurried)], b,
+                 c-[proxy(true), setup(calls_nobody)] ],
+               ( noting_on_c(Id), cut_off, call(Goal, Id) )).
 test(reported_once_to_the_sender_when_the_process_is_dead) :-
     with_peers([a, b, c], told_when_dead).
 
 :- end_tests(unreachable_process).
 
-with_cut(Goal) :-
-    with_peers([ a-[setup(hurried)], b,
-                 c-[proxy(true), setup(calls_nobody)] ], Goal).
+%   noting(+Host, -Id): an agent created on a goes to the host of Host; b knows
+%   only its home.
 
-%   An agent created on a is on c; b knows only its home.
-
-noting_on_c(Id) :-
-    peer_host(c, C),
+noting(Peer, Id) :-
+    peer_host(Peer, Host),
     peer_do(a, agent_create(clauses([ (:- agent(noting, [state([to/1])])),
                                       (main :- to(To), go(To)),
                                       (go(To) :-
                                            catch(move(To),
                                                  error(host_unreachable(_), _),
                                                  go(To))),
+                                      (on_message(_, go(To)) :- move(To)),
                                       (on_message(_, n(N)) :- leave(noted(N)))
                                     ]),
-                            Id, [facts([to(C)])])),
-    wait_until(peer_do(c, agent_here(Id)), 30),
+                            Id, [facts([to(Host)])])),
+    wait_until(peer_do(Peer, agent_here(Id)), 30),
     wait_until(\+ peer_do(a, agent_here(Id)), 30).
+
+noting_on_c(Id) :-
+    noting(c, Id).
+
+%   b sends messages with these numbers to Id.
+
+sends(Id, From, To) :-
+    peer_do(b, forall(between(From, To, N), agent_send(Id, n(N)))).
+
+notes_all(Count) :-
+    wait_until(( noted(Noted), length(Noted, Count) ), 20),
+    numlist(1, Count, Noted).
 
 noted(Numbers) :-
     peer_do(c, remote(c, findall(N, sense(noted(N)), Numbers))).
@@ -69,54 +76,40 @@ reconnected :-
     proxy_release(Proxy, down),
     proxy_cut(Proxy).
 
-waits_for_way :-
-    noting_on_c(Id),
-    cut_off,
-    numlist(1, 20, Numbers),
-    peer_do(b, forall(between(1, 20, N), agent_send(Id, n(N)))),
+waits_for_way(Id) :-
+    sends(Id, 1, 20),
     wait_until(peer_do(a, kept(Id)), 30),
     wait_until(peer_do(a, tried_in_vain(Id)), 30),
     reconnected,
-    wait_until(( noted(Noted), same_length(Noted, Numbers) ), 20),
-    noted(Numbers),
+    notes_all(20),
     peer_messages(a, []),
     peer_messages(b, []).
 
-waits_in_order :-
-    noting_on_c(Id),
-    cut_off,
-    numlist(1, 40, Numbers),
-    peer_do(b, forall(between(1, 20, N), agent_send(Id, n(N)))),
+waits_in_order(Id) :-
+    sends(Id, 1, 20),
     wait_until(peer_do(a, kept(Id)), 30),
     reconnected,
-    peer_do(b, forall(between(21, 40, N), agent_send(Id, n(N)))),
-    wait_until(( noted(Noted), same_length(Noted, Numbers) ), 20),
-    noted(Numbers).
+    sends(Id, 21, 40),
+    notes_all(40).
 
 %   More messages arrive during and after the first attempts.
 
-waits_behind_tried :-
-    noting_on_c(Id),
-    cut_off,
-    numlist(1, 60, Numbers),
-    peer_do(b, forall(between(1, 20, N), agent_send(Id, n(N)))),
+waits_behind_tried(Id) :-
+    sends(Id, 1, 20),
     wait_until(peer_do(a, tried_in_vain(Id)), 30),
-    peer_do(b, forall(between(21, 40, N), agent_send(Id, n(N)))),
+    sends(Id, 21, 40),
     wait_until(peer_do(a, tried_in_vain(Id)), 30),
     reconnected,
-    peer_do(b, forall(between(41, 60, N), agent_send(Id, n(N)))),
-    wait_until(( noted(Noted), same_length(Noted, Numbers) ), 20),
-    noted(Numbers),
+    sends(Id, 41, 60),
+    notes_all(60),
     wait_until(peer_do(a, \+ kept(Id)), 20).
 
 %   The agent moves to the process in which its mail waits. Earlier mail comes
 %   first.
 
-waits_where_it_comes :-
-    noting_on_c(Id),
-    cut_off,
+waits_where_it_comes(Id) :-
     numlist(1, 20, Numbers),
-    peer_do(b, forall(between(1, 20, N), agent_send(Id, n(N)))),
+    sends(Id, 1, 20),
     wait_until(peer_do(a, tried_in_vain(Id)), 30),
     peer_host(a, A),
     reconnected,
@@ -148,6 +141,8 @@ test(home_and_process_agree_that_the_agent_ended) :-
     with_peers([a, b, c-[setup(count_messages)]], no_storm).
 test(restarted_home_learns_the_hosts_of_its_agents) :-
     with_peers([a, b, c], home_learns).
+test(newest_news_of_each_agent_are_kept) :-
+    with_peers([a, b, c], dead_home).
 
 :- end_tests(process_started_again).
 
@@ -158,7 +153,7 @@ no_storm :-
     noting_on_c(Id),
     peer_kill(c),
     peer_restart(c),
-    peer_do(b, forall(between(1, 100, N), agent_send(Id, n(N)))),
+    sends(Id, 1, 100),
     wait_until(said(b, " lost: ", Id), 30),
     wait_until(peer_do(a, \+ kept(Id)), 30),
     peer_do(c, messages_seen(Seen)),
@@ -169,21 +164,8 @@ no_storm :-
 %   The restarted home accepts the news of the agent's next hop.
 
 home_learns :-
-    peer_host(b, B),
     peer_host(c, C),
-    peer_do(a, agent_create(clauses([ (:- agent(back_and_forth,
-                                                [state([to/1])])),
-                                      (main :- to(To), go(To)),
-                                      (go(To) :-
-                                           catch(move(To),
-                                                 error(host_unreachable(_), _),
-                                                 go(To))),
-                                      (on_message(_, go(Host)) :- move(Host)),
-                                      (on_message(_, n(N)) :- leave(noted(N)))
-                                    ]),
-                            Id, [facts([to(B)])])),
-    wait_until(peer_do(b, agent_here(Id)), 30),
-    wait_until(\+ peer_do(a, agent_here(Id)), 30),
+    noting(b, Id),
     peer_kill(a),
     peer_restart(a),
     peer_do(b, agent_send(Id, go(C))),
@@ -191,13 +173,6 @@ home_learns :-
     wait_until(peer_do(a, agent_property(Id, host(C))), 20),
     peer_do(a, agent_send(Id, n(1))),
     wait_until(noted([1]), 30).
-
-:- begin_tests(news).
-
-test(newest_news_of_each_agent_are_kept) :-
-    with_peers([a, b, c], dead_home).
-
-:- end_tests(news).
 
 %   The home of four agents is dead: this does not make their hops more
 %   expensive.

@@ -20,14 +20,18 @@
 
 :- dynamic
     peer/3,                             % Address, Pid, In
-    place_wanted/0.
+    place_wanted/0,
+    refused/0.
 
-%   A client has been evicted in favour of another.
+%   A client has been evicted in favour of another, or has another cookie.
 
 :- multifile user:message_hook/3.
 
 user:message_hook(typhon(endpoint, turned_away(_, silent)), _, _) :-
     assertz(place_wanted),
+    fail.
+user:message_hook(typhon(endpoint, turned_away(_, cookie)), _, _) :-
+    assertz(refused),
     fail.
 
                 /*******************************
@@ -36,8 +40,7 @@ user:message_hook(typhon(endpoint, turned_away(_, silent)), _, _) :-
 
 :- meta_predicate
     with_endpoint(0),
-    with_peers(+, -, 0),
-    within(+, 0).
+    with_peers(+, -, 0).
 
 with_endpoint(Goal) :-
     retractall(endpoint_peer:note(_)),
@@ -80,10 +83,6 @@ kill(Address) :-
     peer(Address, Pid, _),
     process_kill(Pid, kill),
     process_wait(Pid, _).
-
-within(Seconds, Goal) :-
-    elapsed(Goal, Took),
-    assertion(Took < Seconds).
 
 unreachable(Address) :-
     catch(( endpoint_post(Address, note, x), fail ),
@@ -174,24 +173,22 @@ test(slot_of_an_unauthenticated_client_is_freed, Outcome = outcome(ok, _)) :-
                   ),
                   close(Client, [force(true)])),
               read(Out, Outcome) )))).
-test(no_process_at_the_address, Answers == Expected) :-
-    numlist(1, 300, Numbers),
-    maplist([_, unreachable]>>true, Numbers, Expected),
-    with_endpoint(( send_all('127.0.0.1:1', Numbers),
-                    maplist(answered, Numbers, Answers) )).
-test(wrong_cookie_is_reported_at_once) :-
+test(no_process_at_the_address) :-
+    with_endpoint(all_unreachable('127.0.0.1:1', 300)).
+test(wrong_cookie_is_reported_at_once, Status-Refused == exit(3)-true) :-
     project_file('prolog/typhon/kernel/wire', File),
+    retractall(test_wire:refused),
     with_endpoint(( endpoint_address(A),
                     format(atom(Goal),
                            "use_module('~w'),endpoint_start(localhost,0,[],_),\c
-                            settings:set_setting(typhon_connection_manager:connect_time,60),\c
+                            settings:set_setting(typhon_connection_manager:connect_time,600),\c
                             catch(endpoint_post('~w',note,x),\c
                                   error(unreachable(_),_),\c
                                   halt(3)),halt(0)", [File, A]),
-                    within(30, run_swipl(['-g', Goal],
-                                         [environment(['TYPHON_COOKIE'=no])],
-                                         Status, _, _)),
-                    assertion(Status == exit(3)) )).
+                    run_swipl(['-g', Goal],
+                              [environment(['TYPHON_COOKIE'=no])], Status, _,
+                              _) )),
+    ( refused -> Refused = true ; Refused = false ).
 
 meet_at_once(In-Out, [Theirs, Ours]) :-
     command(In, restart),
@@ -259,38 +256,41 @@ connections(Threads) :-
 
 :- begin_tests(requests_wait_for_the_connection).
 
-test(requests_are_sent_in_order, Notes == Numbers) :-
+test(requests_are_sent_in_order_and_precede_later_posts, Notes == Expected) :-
     numlist(1, 500, Numbers),
+    numlist(1, 501, Expected),
     with_endpoint(with_peers(1, [A],
         ( send_all(A, Numbers),
-          maplist(answered, Numbers, _),
-          ask(A, notes, x, Notes) ))).
-test(requests_precede_later_posts, Notes == Expected) :-
-    numlist(1, 100, Numbers),
-    numlist(1, 101, Expected),
-    with_endpoint(with_peers(1, [A],
-        ( send_all(A, Numbers),
-          endpoint_post(A, note, 101),
+          endpoint_post(A, note, 501),
           maplist(answered, Numbers, _),
           ask(A, notes, x, Notes) ))).
 test(waiting_requests_need_no_threads, true(More < 8)) :-
-    numlist(1, 300, Numbers),
     with_endpoint(with_settings([typhon_connection_manager:connect_time=1],
         with_silent_listener(A,
             ( statistics(threads, Before),
-              send_all(A, Numbers),
+              send_up_to(A, 300),
               statistics(threads, After),
               More is After-Before,
-              maplist(answered, Numbers, Answers),
-              assertion(forall(member(X, Answers), X == unreachable)) )))).
+              none_answered(300) )))).
 test(request_that_cannot_travel, error(type_error(mobile_term, _))) :-
     stream_property(S, alias(user_error)),
     with_endpoint(endpoint_request('127.0.0.1:1', echo, S, =(_))).
-test(waiting_requests_end_with_the_endpoint, Answers == [unreachable]) :-
-    with_silent_listener(A, with_endpoint(send_all(A, [1]))),
-    maplist(answered, [1], Answers).
+test(waiting_requests_end_with_the_endpoint) :-
+    with_silent_listener(A, with_endpoint(send_up_to(A, 1))),
+    none_answered(1).
 
 :- end_tests(requests_wait_for_the_connection).
+
+send_up_to(Address, Count) :-
+    numlist(1, Count, Numbers),
+    send_all(Address, Numbers).
+
+none_answered(Count) :-
+    forall(between(1, Count, N), answered(N, unreachable)).
+
+all_unreachable(Address, Count) :-
+    send_up_to(Address, Count),
+    none_answered(Count).
 
 send_all(Address, Numbers) :-
     thread_self(Me),
@@ -424,12 +424,6 @@ test(answer_to_a_disconnected_peer, Answer == answer(x)) :-
               endpoint_request(A, later, x, thread_send_message(Me)),
               proxy_cut(Proxy),
               thread_get_message(Me, Answer, [timeout(20)]) )))).
-test(late_answer_is_dropped, Open == 0) :-
-    with_endpoint(with_peers(1, [A],
-        ( catch(endpoint_call(A, never, x, _, 0.2),
-                error(timeout_error(_, _), _), true),
-          aggregate_all(count, typhon_request:open_request(_, _, _),
-                        Open) ))).
 test(peer_records_are_bounded, true(Count =< 5)) :-
     with_settings([typhon_peer_cache:contacts=5],
         with_endpoint(
