@@ -29,30 +29,20 @@ with_proxied(Codec, Goal) :-
 
 :- begin_tests(connections_cut_during_hops).
 
-test(cut_during_the_hop, forall(codec(Codec))) :-
-    with_proxied(Codec, cut_everywhere(up, down)).
-
-test(cut_during_the_return, forall(codec(Codec))) :-
-    with_proxied(Codec, cut_everywhere(down, up)).
-
-test(hop_without_pause, forall(codec(Codec))) :-
-    with_proxied(Codec, cut_all_the_time(8, 150)).
-
+test(every_step_once, forall(( member(Codec, [fast, text]),
+                               member(Goal, [ cut_everywhere(up, down),
+                                              cut_everywhere(down, up),
+                                              cut_all_the_time(8, 150) ]) ))) :-
+    with_proxied(Codec, Goal).
 test(between_hosts_of_one_process) :-
     with_peers([a-[proxy(true)]], cut_self_connection).
-
 test(cut_before_the_answer) :-
     with_proxied(fast, cut_before_answer(10)).
-
-:- end_tests(connections_cut_during_hops).
-
-:- begin_tests(large_hops).
-
-test(among_small_ones, forall(heavy(Codec, Facts))) :-
+test(large_agents_among_small_ones, forall(heavy(Codec, Facts))) :-
     with_peers([ a-[codec(Codec)], b-[codec(Codec)] ],
                cross_heavily(Facts)).
 
-:- end_tests(large_hops).
+:- end_tests(connections_cut_during_hops).
 
 heavy(fast, 20 000).
 heavy(text, 2 000).
@@ -76,9 +66,6 @@ cross_heavily(Facts) :-
            ->  ended_done(Peer, Id, 10)
            ;   ended_done(Peer, Id, 100)
            )).
-
-codec(fast).
-codec(text).
 
 %   An agent goes from a to b and back. Data from a to b pass the proxy of b
 %   upwards or, if b has connected, that of a downwards.
@@ -172,22 +159,21 @@ answers(What) :-
 
 :- begin_tests(hop_refused).
 
-test(when_full) :-
-    with_peers([a, b-[host([capacity(0)])]],
-               refused(b, capacity, [])).
-test(without_token) :-
+test(when_full_or_without_token,
+     forall(member(Option-Options-Reason,
+                   [ capacity(0)-[]-capacity, tokens([key])-[]-token,
+                     tokens([key])-[tokens([other])]-token ]))) :-
+    with_peers([a, b-[host([Option])]],
+               ( peer_host(b, B), refused_at(B, Reason, Options) )).
+test(admitted_with_a_token) :-
     with_peers([a, b-[host([tokens([key])])]],
-               ( refused(b, token, []),
-                 refused(b, token, [tokens([other])]),
-                 peer_host(b, B),
+               ( peer_host(b, B),
                  travel(a, [B], 1, [tokens([other, key])]) )).
 test(by_an_unknown_host) :-
     with_peers([a, b],
                ( peer_host(b, B),
-                 sub_atom(B, Before, _, After, '@'),
-                 sub_atom(B, _, After, 0, Endpoint),
-                 Before > 0,
-                 atom_concat('missing@', Endpoint, Missing),
+                 atom_concat(b, Endpoint, B),
+                 atom_concat(missing, Endpoint, Missing),
                  refused_at(Missing, unknown_host, []) )).
 test(two_agents_swap_hosts) :-
     with_peers([ a-[host([capacity(1)])],
@@ -195,10 +181,6 @@ test(two_agents_swap_hosts) :-
                  c ], swap(200)).
 
 :- end_tests(hop_refused).
-
-refused(Peer, Reason, Options) :-
-    peer_host(Peer, Host),
-    refused_at(Host, Reason, Options).
 
 refused_at(Host, Reason, Options) :-
     peer_do(a, try_move(Host, Options, Error)),
@@ -222,7 +204,7 @@ swap(Rounds) :-
 
 :- begin_tests(hop_messages).
 
-test(arrive_once_each, forall(messages(Codec, Count))) :-
+test(arrive_once_each, forall(member(Codec-Count, [fast-1000, text-300]))) :-
     with_peers([ a-[codec(Codec)], b-[codec(Codec)], c-[codec(Codec)] ],
                chase(Count)).
 test(follow_in_several_frames, Numbers == [1, 2, 3, 4, 5, 6, 7]) :-
@@ -233,9 +215,6 @@ test(ordered_to_end_while_hopping) :-
     with_peers([a, b, c], dispose_hopping(20)).
 
 :- end_tests(hop_messages).
-
-messages(fast, 1000).
-messages(text, 300).
 
 %   An agent hops without pause between three processes until it has received
 %   as many messages as three processes have sent, and adds them up. It stays
@@ -278,16 +257,13 @@ dispose_hopping(Rounds) :-
     peer_host(c, C),
     forall(between(1, Rounds, I),
            ( set_out(a, [B, C, A], 1 000 000, Id),
-             nth(I, [a, b, c], Peer),
+             N is I mod 3,
+             nth0(N, [a, b, c], Peer),
              peer_do(Peer, agent_dispose(Id)),
              peer_do(b, agent_join(Id, Outcome, 20)),
              Outcome == disposed )),
     wait_until(forall(member(Peer, [a, b, c]),
                       peer_do(Peer, \+ agent_here(_))), 10).
-
-nth(I, List, X) :-
-    N is I mod 3,
-    nth0(N, List, X).
 
 :- begin_tests(hop_program).
 
