@@ -6,7 +6,7 @@
 :- use_module(library(lists), [last/2, member/2, sum_list/2]).
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/kernel/agent/mailbox), [mail_fitting/4]).
+:- use_module(library(typhon/kernel/agent), [mail_fitting/4]).
 
 /** <module> Mailboxes that are full
 
@@ -20,12 +20,6 @@ full(Agent, Options) :-
 
 waiting(Agent, Messages) :-
     agent_property(Agent, mailbox(Messages)).
-
-%   The part with monitors is loaded when the agent calls it.
-
-watches(A, B) :-
-    current_module(typhon_monitors),
-    catch(typhon_monitors:monitor_set(A, B), error(_, _), fail).
 
 small(Goal) :-
     with_settings([typhon_mailbox:messages=1000], Goal).
@@ -67,7 +61,7 @@ test(platform_messages_always_fit, true(Last == system-down(B, done))) :-
                                          receive(_-stop)) ], A),
                        create([(main :- receive(_-stop))], B),
                        agent_send(A, watch(B)),
-                       wait_until(watches(A, B), 10),
+                       wait_until(agent_property(A, goals([receive(_-stop)])), 10),
                        forall(between(1, 1000, I), agent_send(A, I)),
                        agent_send(B, stop),
                        wait_until(( waiting(A, All), length(All, 1001) ), 10),
