@@ -6,11 +6,10 @@
 */
 
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/endpoints').
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(lists), [append/3, member/2, numlist/3]).
 :- use_module(library(plunit)).
-:- use_module(library(readutil), [read_line_to_string/2]).
-:- use_module(library(settings), [set_setting/2, setting/2]).
 :- use_module(library(thread), [concurrent_forall/3]).
 :- use_module(library(typhon/kernel/wire)).
 :- use_module(library(typhon/kernel/travel), []).
@@ -36,15 +35,9 @@ has_note(Note) :-
 :- meta_predicate with_peer(-, 0).
 
 with_peer(Address, Goal) :-
-    project_file('test/lib/endpoint_peer.pl', File),
-    no_leaks(setup_call_cleanup(
-        endpoint_start(localhost, 0, [], _),
-        with_swipl(['-g', 'set_setting(typhon_reader:silence,100)',
-                    '-g', 'serve(0)', File], _, _, Out,
-                   ( read_line_to_string(Out, Line),
-                     atom_string(Address, Line),
-                     once(Goal) )),
-        endpoint_stop)).
+    with_endpoint(with_peer_process(
+                      [setup(set_setting(typhon_reader:silence, 100))], _, _,
+                      Address, once(Goal))).
 
 post_notes(Address, From, To) :-
     forall(between(From, To, I), endpoint_post(Address, note, I)).
@@ -74,12 +67,10 @@ test(posts_are_bundled_in_few_frames, true(Frames < 1500)) :-
                            endpoint_address(Me),
                            frames_passed(Me-peer, Frames),
                            assertion(Frames > 10) )).
-test(as_text, [ setup(( setting(typhon_handshake:records, Old),
-                        set_setting(typhon_handshake:records, false) )),
-                cleanup(set_setting(typhon_handshake:records, Old)),
-                true(Notes == Sent) ]) :-
+test(as_text, true(Notes == Sent)) :-
     numlist(1, 500, Sent),
-    with_peer(A, ( post_notes(A, 1, 500), notes(A, Notes) )).
+    with_settings([typhon_handshake:records=false],
+                  with_peer(A, ( post_notes(A, 1, 500), notes(A, Notes) ))).
 test(bundled_posts_keep_their_order_with_long_ones, true(Notes == Sent)) :-
     numlist(1, 40, Numbers),
     maplist(long_or_short, Numbers, Some),
@@ -115,11 +106,9 @@ test(posts_of_many_threads, true(Sorted == Sent)) :-
 test(posts_to_itself_are_delivered_at_once, true(Found == [1-Me, 2-Me])) :-
     forget_notes,
     thread_self(Me),
-    setup_call_cleanup(
-        endpoint_start(localhost, 0, [], Own),
-        ( post_notes(Own, 1, 2),
-          findall(Note-Thread, note(Note, Thread), Found) ),
-        endpoint_stop).
+    with_endpoint(( endpoint_address(Own),
+                    post_notes(Own, 1, 2),
+                    findall(Note-Thread, note(Note, Thread), Found) )).
 
 long_or_short(I, Note) :-
     (   I mod 7 =:= 0

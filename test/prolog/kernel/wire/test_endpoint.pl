@@ -2,6 +2,7 @@
 
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/cutting_proxy').
+:- use_module('../../../lib/endpoints').
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [numlist/3]).
@@ -10,7 +11,7 @@
 :- use_module(library(process), [process_kill/2, process_wait/2]).
 :- use_module(library(random), [random_between/3]).
 :- use_module(library(readutil), [read_line_to_string/2]).
-:- use_module(library(socket)).
+:- use_module(library(socket), [tcp_connect/3]).
 :- use_module(library(thread), [concurrent_forall/3]).
 :- use_module(library(typhon/kernel/base/prolog_faults), [spawn/3]).
 :- use_module(library(typhon/kernel/wire)).
@@ -53,38 +54,27 @@ user:message_hook(typhon(endpoint, hook(connection, Problem)), error, _) :-
 		 *******************************/
 
 :- meta_predicate
-    with_endpoint(0),
     with_peer(-, 0),
     with_peer(+, -, -, 0),
-    with_peer(+, -, -, -, 0),
-    truth(0, -),
-    with_listener(+, -, 0),
     with_deaf(-, 0),
-    quiet(0).
+    quiet(0),
+    truth(0, -),
+    fresh(0).
 
-with_endpoint(Goal) :-
+%   fresh(:Goal): as with_endpoint/1; nothing was noted before.
+
+fresh(Goal) :-
     retractall(note(_)),
     retractall(seen(_, _)),
-    no_leaks(setup_call_cleanup(
-                 endpoint_start(localhost, 0, [], _),
-                 once(Goal),
-                 endpoint_stop)).
+    with_endpoint(Goal).
 
 with_peer(Address, Goal) :-
-    with_peer(0, _, _, Address, Goal).
+    with_peer_process(Address, Goal).
 
 with_peer(Port, Pid, Address, Goal) :-
-    with_peer(Port, Pid, _, Address, Goal).
+    with_peer_process([port(Port)], Pid, _, Address, Goal).
 
 %   The peer ends when it reads `end`.
-
-with_peer(Port, Pid, In, Address, Goal) :-
-    project_file('test/lib/endpoint_peer.pl', File),
-    format(atom(Serve), 'serve(~d)', [Port]),
-    with_swipl(['-g', Serve, File], Pid, In, Out,
-               ( read_line_to_string(Out, Line),
-                 atom_string(Address, Line),
-                 call(Goal) )).
 
 says_goodbye(In) :-
     format(In, "end.~n", []),
@@ -115,22 +105,7 @@ quiet(Goal) :-
 ask(Address, Kind, Term, Answer) :-
     endpoint_call(Address, Kind, Term, answer(Answer), 20).
 
-port_of(Address, Port) :-
-    atomic_list_concat([_, PortText], :, Address),
-    atom_number(PortText, Port).
-
-%   with_listener(+Queue, -Address, :Goal): so many connections to Address may
-%   wait to be accepted; with_deaf(-Address, :Goal): one waits, and no more
-%   may.
-
-with_listener(Queue, Address, Goal) :-
-    setup_call_cleanup(
-        ( tcp_socket(Socket),
-          tcp_bind(Socket, '127.0.0.1':Port),
-          tcp_listen(Socket, Queue),
-          atomic_list_concat(['127.0.0.1', Port], :, Address) ),
-        Goal,
-        tcp_close_socket(Socket)).
+%   with_deaf(-Address, :Goal): one connection waits, and no more may.
 
 with_deaf(Address, Goal) :-
     with_listener(0, Address,
@@ -214,36 +189,36 @@ hold_once :-
 :- begin_tests(two_processes).
 
 test(call, Answer == foo(1, "two", [3.0])) :-
-    with_endpoint(with_peer(A, ask(A, echo, foo(1, "two", [3.0]), Answer))).
+    fresh(with_peer(A, ask(A, echo, foo(1, "two", [3.0]), Answer))).
 test(posts_arrive_in_order, Notes == Sent) :-
     numlist(1, 2000, Sent),
-    with_endpoint(with_peer(A, ( post_notes(A, 1, 2000),
+    fresh(with_peer(A, ( post_notes(A, 1, 2000),
                                  ask(A, notes, x, Notes) ))).
 test(peer_posts_back, Got == Expected) :-
     numlist(1, 500, Expected),
-    with_endpoint(with_peer(A, ( ask(A, back, 500, done),
+    fresh(with_peer(A, ( ask(A, back, 500, done),
                                  findall(N, note(N), Got) ))).
 test(another_thread_answers_later, Answer == x) :-
-    with_endpoint(with_peer(A, ask(A, later, x, Answer))).
+    fresh(with_peer(A, ask(A, later, x, Answer))).
 test(answer_after_the_deadline, error(timeout_error(answer, _))) :-
-    with_endpoint(with_peer(A, endpoint_call(A, never, x, _, 0.2))).
+    fresh(with_peer(A, endpoint_call(A, never, x, _, 0.2))).
 test(request_that_cannot_be_served,
      [ forall(member(Kind, [wrong, unheard_of])),
        error(connection_lost(_)) ]) :-
-    with_endpoint(with_peer(A, ask(A, Kind, x, _))).
+    fresh(with_peer(A, ask(A, Kind, x, _))).
 test(large_terms_both_ways) :-
     length(Long, 300000),
     maplist(=(x), Long),
-    with_endpoint(with_peer(A,
+    fresh(with_peer(A,
         concurrent_forall(between(1, 8, _),
                           ( ask(A, echo, Long, Back), Back == Long ),
                           [threads(4)]))).
 test(request_to_itself, Answer-Codec == x-fast) :-
-    with_endpoint(( endpoint_address(Me),
+    fresh(( endpoint_address(Me),
                     ask(Me, echo, x, Answer),
                     endpoint_peer(Me, codec(Codec)) )).
 test(properties, [State, Pending, Same] == [up, 0, false]) :-
-    with_endpoint(with_peer(A,
+    fresh(with_peer(A,
         ( ask(A, echo, x, x),
           endpoint_flush(5),
           endpoint_peer(A, state(State)),
@@ -252,10 +227,10 @@ test(properties, [State, Pending, Same] == [up, 0, false]) :-
           truth(endpoint_process(P), Same) ))).
 test(term_that_cannot_travel, error(type_error(mobile_term, S))) :-
     stream_property(S, alias(user_error)),
-    with_endpoint(with_peer(A, endpoint_post(A, note, S))).
+    fresh(with_peer(A, endpoint_post(A, note, S))).
 test(too_long_for_a_frame, error(resource_error(frame_bytes))) :-
     numlist(1, 100000, Long),
-    with_endpoint(with_peer(A,
+    fresh(with_peer(A,
         ( ask(A, echo, x, x),
           with_settings([typhon_session:frame_bytes=100000],
                        ask(A, echo, Long, _)) ))).
@@ -266,15 +241,15 @@ test(too_long_for_a_frame, error(resource_error(frame_bytes))) :-
 
 test(unreachable, [ forall(member(A, ['127.0.0.1:1', nonsense])),
                     error(unreachable(A)) ]) :-
-    with_endpoint(endpoint_post(A, note, x)).
+    fresh(endpoint_post(A, note, x)).
 test(not_running, error(existence_error(endpoint, _))) :-
     endpoint_post('127.0.0.1:1', note, x).
 test(silent_listener, error(unreachable(_))) :-
-    with_endpoint(with_settings([typhon_connection_manager:connect_time=1],
+    fresh(with_settings([typhon_connection_manager:connect_time=1],
         with_settings([typhon_handshake:handshake_time=0.3],
                      with_listener(5, A, endpoint_post(A, note, x))))).
 test(twice, error(permission_error(start, endpoint, _))) :-
-    with_endpoint(endpoint_start(localhost, 0, [], _)).
+    fresh(endpoint_start(localhost, 0, [], _)).
 
 %   An attempt was refused, and the connection manager is not notified yet,
 %   when a peer begins to listen: later callers get the result of a later
@@ -286,7 +261,7 @@ test(later_request_gets_the_result_of_a_later_attempt,
     free_port(Port),
     atomic_list_concat(['127.0.0.1', Port], :, A),
     with_settings([typhon_connection_manager:connect_time=60],
-        with_endpoint(
+        fresh(
             with_held(
                 typhon_connection:missed(_, _), posting(A, T1),
                 with_peer(Port, _, A,
@@ -349,7 +324,7 @@ test(two_addresses_of_one_process, Same == true) :-
           truth(endpoint_peer(B, process(P1)), Same) )).
 
 test(both_connect_at_once) :-
-    with_endpoint(with_peer(A, with_peer(B,
+    fresh(with_peer(A, with_peer(B,
         ( concurrent_forall(member(X-Y, [A-B, B-A]),
                             ask(X, greet, Y-100, done),
                             [threads(2)]),
@@ -363,7 +338,7 @@ test(both_connect_at_once) :-
 
 test(post_before_its_deadline_waits_for_the_next_connection,
      [Up,Last,Notes] == [false,true,[0,1]]) :-
-    with_endpoint(with_peer(A,
+    fresh(with_peer(A,
         ( endpoint_post(A, note, 0),
           endpoint_flush(20),
           typhon_session:route(A, Session),
@@ -385,7 +360,7 @@ test(post_before_its_deadline_waits_for_the_next_connection,
 %   with it.
 
 test(caller_that_gives_up_during_a_send_leaves_nothing_open, Open == 0) :-
-    with_endpoint(with_peer(A,
+    fresh(with_peer(A,
         ( with_held(
               typhon_request:request_send(_, _, _, _),
               thread_create(gives_up(A), Asks),
@@ -403,7 +378,7 @@ gives_up(Address) :-
 %   another one has a connection with the peer already, or if writing fails.
 
 test(connection_is_reported_even_if_its_thread_ends) :-
-    with_endpoint(with_peer(A,
+    fresh(with_peer(A,
         ( wrap_predicate(typhon_writer:session_install(_, _, _, _),
                          told_to_end, Wrapped,
                          ( Wrapped, test_endpoint:told_to_end )),
@@ -417,7 +392,7 @@ test(hook_of_connections_that_fails_or_raises_is_reported,
        true(Problems = [Problem|_]) ]) :-
     setup_call_cleanup(
         assertz(test_endpoint:trouble(How)),
-        with_endpoint(with_peer(A, ask(A, echo, x, x))),
+        fresh(with_peer(A, ask(A, echo, x, x))),
         retractall(test_endpoint:trouble(_))),
     findall(Reported, retract(test_endpoint:reported(Reported)), Problems).
 
@@ -443,7 +418,7 @@ ask_again(Address, Term) :-
     with_proxied_peer(-, -, 0).
 
 with_proxied_peer(Proxy, Address, Goal) :-
-    with_endpoint(
+    fresh(
         with_peer(Peer,
                   with_proxy(Peer, Proxy,
                              ( proxy_address(Proxy, Address),
@@ -497,11 +472,11 @@ test(unreadable_answer, error(connection_lost(_))) :-
             A, ask(A, echo, zork, _)).
 test(frame_longer_than_memory, error(connection_lost(_))) :-
     numlist(1, 100000, Long),
-    with_endpoint(with_peer(A,
+    fresh(with_peer(A,
         wrapped(typhon_frame:unmarked(_, _), _, resource_error(memory),
                 ask(A, echo, Long, _)))).
 test(acknowledgement_of_unsent_frames, Notes == [1, 2]) :-
-    with_endpoint(with_peer(A,
+    fresh(with_peer(A,
         ( ask(A, echo, x, x),
           endpoint_post(A, note, 1),
           once(typhon_session:route(A, Session)),
@@ -529,7 +504,7 @@ acknowledge(Session, Count) :-
 damaging(Goal, A) :-
     wrapped(typhon_frame:frame_write(Out, Counts, Bytes), Original,
             plunit_damage:write_damaged(Original, Out, Counts, Bytes),
-            with_endpoint(with_peer(A, ( ask(A, echo, x, x), Goal )))).
+            fresh(with_peer(A, ( ask(A, echo, x, x), Goal )))).
 
 write_damaged(_, Out, counts(R, S), Bytes) :-
     damaged_now(Bytes),
@@ -557,7 +532,7 @@ damaged_now(Bytes) :-
 
 as_text(Head, Original, Body, A, Goal) :-
     with_settings([typhon_handshake:records=false],
-        with_endpoint(with_peer(A,
+        fresh(with_peer(A,
             ( ask(A, echo, x, x),
               endpoint_peer(A, codec(Codec)),
               assertion(Codec == text),
@@ -578,7 +553,7 @@ wrapped(Module:Head, Original, Body, Goal) :-
 
 test(request_fails_when_the_peer_dies, Result == lost) :-
     free_port(Port),
-    with_endpoint(with_peer(Port, Pid, A,
+    fresh(with_peer(Port, Pid, A,
         ( ask(A, echo, x, x),
           asked(A, never),
           endpoint_flush(5),
@@ -587,7 +562,7 @@ test(request_fails_when_the_peer_dies, Result == lost) :-
           with_peer(Port, _, A, answer(Result)) ))).
 test(successor_gets_no_old_messages, Notes == [new]) :-
     free_port(Port),
-    with_endpoint(with_peer(Port, Pid, A,
+    fresh(with_peer(Port, Pid, A,
         ( ask(A, echo, x, x),
           stop_process(Pid),
           endpoint_post(A, note, old),
@@ -597,7 +572,7 @@ test(successor_gets_no_old_messages, Notes == [new]) :-
                       ask(A, notes, x, Notes) )) ))).
 test(caller_of_an_undelivered_request_continues) :-
     free_port(Port),
-    with_endpoint(with_peer(Port, Pid, A,
+    fresh(with_peer(Port, Pid, A,
         ( ask(A, echo, x, x),
           stop_process(Pid),
           endpoint_post(A, note, old),
@@ -610,26 +585,26 @@ test(caller_of_an_undelivered_request_continues) :-
                                  10),
                       thread_join(Thread, _) )) ))).
 test(goodbye_is_sent, Result == lost) :-
-    with_endpoint(with_peer(0, _, In, A,
+    fresh(with_peer_process([], _, In-_, A,
         ( ask(A, echo, x, x),
           asked(A, never),
           endpoint_flush(5),
           says_goodbye(In),
           answer(Result) ))).
 test(peer_is_gone_after_goodbye) :-
-    with_endpoint(with_peer(0, _, In, A,
+    fresh(with_peer_process([], _, In-_, A,
         ( ask(A, echo, x, x),
           says_goodbye(In),
           wait_until(endpoint_gone(A), 10) ))).
 test(peer_is_gone_when_no_process_listens, Before-After == false-true) :-
-    with_endpoint(with_peer(0, Pid, A,
+    fresh(with_peer(0, Pid, A,
         ( ask(A, echo, x, x),
           truth(endpoint_gone(A), Before),
           killed(Pid, A),
           wait_until(unreachable(A), 5),
           truth(endpoint_gone(A), After) ))).
 test(stopped_peer_is_not_gone, State-Gone == down-false) :-
-    with_endpoint(with_settings([typhon_reader:silence=0.2],
+    fresh(with_settings([typhon_reader:silence=0.2],
         with_peer(0, Pid, A,
             ( ask(A, echo, x, x),
               process_kill(Pid, stop),
@@ -640,7 +615,7 @@ test(stopped_peer_is_not_gone, State-Gone == down-false) :-
               process_kill(Pid, cont) )))).
 test(another_process_at_the_address_is_reported, Process == New) :-
     free_port(Port),
-    with_endpoint(with_peer(Port, Pid, A,
+    fresh(with_peer(Port, Pid, A,
         ( ask(A, echo, x, x),
           endpoint_peer(A, process(Old)),
           killed(Pid, A),
@@ -658,7 +633,7 @@ test(another_process_at_the_address_is_reported, Process == New) :-
 
 test(after_a_hundred_starts) :-
     no_leaks(forall(between(1, 100, _),
-                    with_endpoint(( endpoint_address(A),
+                    fresh(( endpoint_address(A),
                                     ask(A, echo, x, x) )))).
 test(processes_do_not_keep_the_port) :-
     setup_call_cleanup(
@@ -673,19 +648,19 @@ test(processes_do_not_keep_the_port) :-
           close(Out),
           process_wait(Pid, _) )).
 test(stop_with_requests_open, Result == lost) :-
-    with_peer(A, ( with_endpoint(( ask(A, echo, x, x),
+    with_peer(A, ( fresh(( ask(A, echo, x, x),
                                    asked(A, never),
                                    endpoint_flush(5) )),
                    answer(Result) )).
 test(stop_while_connecting, Result == unreachable) :-
     with_deaf(A,
-        with_endpoint(( asked(A, echo),
+        fresh(( asked(A, echo),
                         wait_until(typhon_attempts:attempt(
                                        A, trying(_, _, _, _), _, _), 10) ))),
     answer(Result).
 test(thread_stops_waiting_at_its_deadline, Count == 0) :-
     with_deaf(A,
-        with_endpoint(( get_time(Now),
+        fresh(( get_time(Now),
                         Deadline is Now+0.2,
                         \+ typhon_waiting:manager_connect(A, Deadline),
                         waiting(A, Count) ))).

@@ -8,12 +8,12 @@ The client here shares no code with the product.
 */
 
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/endpoints').
 :- use_module('../../../lib/plain_client').
 :- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(plunit)).
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(sha), [sha_hash/3]).
-:- use_module(library(socket)).
 :- use_module(library(typhon/kernel/wire)).
 
 %   The messages about the faults of the client are not printed.  No count is
@@ -53,37 +53,22 @@ served(Goal) :-
     setup_call_cleanup(
         asserta((user:message_hook(typhon(endpoint, _), _, _) :- true), Hook),
         with_settings([typhon_reader:silence=100],
-                      no_leaks(setup_call_cleanup(
-                                   endpoint_start(localhost, 0, [], _),
-                                   once(Goal),
-                                   endpoint_stop))),
+                      with_endpoint(Goal)),
         erase(Hook)).
-
-connected(In, Out) :-
-    endpoint_address(Address),
-    atomic_list_concat([_, Text], :, Address),
-    atom_number(Text, Port),
-    tcp_connect('127.0.0.1':Port, Stream, []),
-    stream_pair(Stream, In, Out),
-    set_stream(In, encoding(octet)),
-    set_stream(Out, encoding(octet)),
-    set_stream(In, timeout(20)).
 
 %   talking(+Process, +Has, -In-Out, -Count, :Goal): a process that has received
 %   Has frames connects; the endpoint has received Count.  A key that begins
 %   with z is not the smaller one.
 
 talking(Process, Has, In-Out, Count, Goal) :-
-    setup_call_cleanup(
-        connected(In, Out),
+    with_client(In, Out,
         ( client_authenticate(In, Out, Process),
           read_line_to_string(In, Line),
           string_concat("resume ", Digits, Line),
           number_string(Count, Digits),
           format(Out, "resume ~d\n", [Has]),
           flush_output(Out),
-          once(Goal) ),
-        ( close(Out, [force(true)]), close(In, [force(true)]) )).
+          once(Goal) )).
 
 %   send(+Streams, +Term): as text, with its mark.
 
@@ -193,22 +178,19 @@ notes(Notes) :-
 test(smaller_key_counts_first, Count == 0) :-
     served(talking(zz, 0, Streams, Count, is_answered(Streams, 1))).
 test(client_with_a_wrong_proof_is_refused, Line == "refused") :-
-    served(setup_call_cleanup(
-        connected(In, Out),
+    served(with_client(In, Out,
         ( greeting(zz, Greeting),
           format(Out, "~w\n00\n", [Greeting]),
           flush_output(Out),
           read_line_to_string(In, _),
-          read_line_to_string(In, Line) ),
-        ( close(Out, [force(true)]), close(In, [force(true)]) ))).
+          read_line_to_string(In, Line) ))).
 test(first_byte_of_no_greeting_ends_the_connection, Byte == -1) :-
     with_settings([typhon_handshake:handshake_time=100],
-        served(setup_call_cleanup(
-            connected(In, Out),
+        served(with_client(In, Out,
             ( format(Out, "G", []),
               flush_output(Out),
-              catch(get_code(In, Byte), error(io_error(_, _), _), Byte = -1) ),
-            ( close(Out, [force(true)]), close(In, [force(true)]) )))).
+              catch(get_code(In, Byte), error(io_error(_, _), _),
+                    Byte = -1) )))).
 test(frame_that_the_endpoint_cannot_serve_is_answered,
      [ forall(member(Frame-Answers,
                      [ request(7, no_such_kind, x)-[spoilt(7)],

@@ -9,8 +9,8 @@ The client sends `M` before anything else, and the server answers with a line.
 */
 
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/endpoints').
 :- use_module(library(plunit)).
-:- use_module(library(socket), [tcp_connect/3]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(typhon/kernel/wire)).
 
@@ -51,31 +51,16 @@ typhon_endpoint:requested(proof, mine, Peer, ReplyTo) :-
     endpoint_proof(Peer, Proof),
     endpoint_reply(ReplyTo, Proof).
 
-:- meta_predicate with_endpoint(+, 1).
+%   server_answer(+Text, -Line): Line is the answer to a client that begins with
+%   Text.
 
-with_endpoint(Options, Goal) :-
-    no_leaks(test_transport:endpoint_and(Options, Goal)).
+server_answer(Text, Line) :-
+    with_client(In, Out, ( format(Out, "~w", [Text]),
+                           flush_output(Out),
+                           read_line_to_string(In, Line) )).
 
-endpoint_and(Options, Goal) :-
-    setup_call_cleanup(
-        endpoint_start(localhost, 0, Options, Address),
-        once(call(Goal, Address)),
-        endpoint_stop).
-
-%   server_answer(+Text, -Line, +Address): Line is the answer to a client that
-%   begins with Text.
-
-server_answer(Text, Line, Address) :-
-    atomic_list_concat([Host,Port0], :, Address),
-    atom_number(Port0, Port),
-    setup_call_cleanup(
-        tcp_connect(Host:Port, Stream, []),
-        ( format(Stream, "~w", [Text]),
-          flush_output(Stream),
-          read_line_to_string(Stream, Line) ),
-        close(Stream, [force(true)])).
-
-asked(Proof, Address) :-
+asked(Proof) :-
+    endpoint_address(Address),
     endpoint_call(Address, proof, mine, answer(Proof), 10).
 
 :- begin_tests(transport).
@@ -86,21 +71,15 @@ test(tcp_peer_has_proved_the_cookie, Proof == cookie) :-
     with_endpoint([], asked(Proof)).
 test(own_and_unknown_proofs_are_those_of_the_transport,
      Own-Unknown == mark(ours)-mark(unknown)) :-
-    with_endpoint([marked], test_transport:proofs(Own, Unknown)).
+    with_endpoint([marked], ( endpoint_own_proof(Own),
+                              endpoint_proof('127.0.0.1:1', Unknown) )).
 test(plain_client_gets_the_name_of_the_transport, Line == "typhon marked") :-
     with_endpoint([marked], server_answer(typhon, Line)).
 test(client_of_a_missing_transport_gets_a_line,
      Line == "typhon plain") :-
     with_endpoint([], server_answer('M', Line)).
 test(transport_stops_with_the_endpoint) :-
-    with_endpoint([marked], agrees),
+    with_endpoint([marked], \+ transport_disagrees(marked)),
     transport_disagrees(marked).
 
 :- end_tests(transport).
-
-proofs(Own, Unknown, _) :-
-    endpoint_own_proof(Own),
-    endpoint_proof('127.0.0.1:1', Unknown).
-
-agrees(_) :-
-    \+ transport_disagrees(marked).

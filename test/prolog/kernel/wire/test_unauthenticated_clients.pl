@@ -4,6 +4,7 @@
 % reports about them.
 
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/endpoints').
 :- use_module('../../../lib/plain_client').
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
@@ -26,15 +27,15 @@ user:message_hook(typhon(endpoint, Message), _, _) :-
     assertz(told(Message)).
 
 :- meta_predicate
-    with_endpoint(0),
+    fresh(0),
     patiently(0),
     with_silent(+, -, 0).
 
-with_endpoint(Goal) :-
+%   fresh(:Goal): as with_endpoint/1; the log is empty.
+
+fresh(Goal) :-
     retractall(told(_)),
-    setup_call_cleanup(endpoint_start(localhost, 0, [], _),
-                       once(Goal),
-                       endpoint_stop).
+    with_endpoint(Goal).
 
 %   No client is refused for being slow; `soon` is much shorter.
 
@@ -44,13 +45,8 @@ patiently(Goal) :-
 soon(Seconds) :-
     assertion(Seconds < 20).
 
-port(Port) :-
-    endpoint_address(Address),
-    atomic_list_concat([_, Text], :, Address),
-    atom_number(Text, Port).
-
 connected(streams(In, Out)) :-
-    port(Port),
+    endpoint_port(Port),
     tcp_socket(Socket),
     tcp_connect(Socket, '127.0.0.1':Port),
     tcp_open_socket(Socket, In, Out),
@@ -105,17 +101,17 @@ slots(Count) :-
 
 test(newcomers_are_accepted, [forall(member(Slots-Silent, [32-32, 32-200,
                                                            128-200]))]) :-
-    no_leaks(with_endpoint(patiently(
-        with_settings([typhon_acceptor:unproved=Slots], crowded(Silent))))).
+    fresh(patiently(
+        with_settings([typhon_acceptor:unproved=Slots], crowded(Silent)))).
 test(newcomers_are_accepted_without_delay) :-
-    with_endpoint(patiently(with_settings([typhon_acceptor:unproved=16],
+    fresh(patiently(with_settings([typhon_acceptor:unproved=16],
         with_silent(16, _,
             ( wait_until(silent(16), 30),
               numlist(1, 6, Newcomers),
               concurrent_maplist(newcomer, Newcomers, Times),
               maplist(soon, Times) ))))).
 test(active_client_stays) :-
-    with_endpoint(patiently(with_settings([typhon_acceptor:unproved=4],
+    fresh(patiently(with_settings([typhon_acceptor:unproved=4],
         with_silent(4, [Talker|_],
             ( say("ty", Talker),
               wait_until(stages([heard, silent, silent, silent]), 30),
@@ -178,7 +174,7 @@ forget_all :-
 :- begin_tests(slots_are_freed).
 
 test(thread_creation_fails) :-
-    no_leaks(with_endpoint(
+    no_leaks(fresh(
         ( setup_call_cleanup(
               wrap_predicate(typhon_threads:create(_, _, _, _), none, _,
                              throw(error(resource_error(threads), _))),
@@ -188,15 +184,15 @@ test(thread_creation_fails) :-
           assertion(slots(0)),
           newcomer(x, _) ))).
 test(clients_die_at_any_moment) :-
-    no_leaks(with_endpoint(
+    no_leaks(fresh(
         ( forall(between(1, 300, I), dies(I)),
           wait_until(slots(0), 30),
           newcomer(x, _) ))).
 test(threads_are_stopped_at_any_moment) :-
     no_leaks(forall(between(1, 20, _),
-                    with_endpoint(forall(between(1, 15, I), dies(I))))).
+                    fresh(forall(between(1, 15, I), dies(I))))).
 test(clients_are_evicted_at_any_moment) :-
-    no_leaks(with_endpoint(with_settings([typhon_acceptor:unproved=2],
+    no_leaks(fresh(with_settings([typhon_acceptor:unproved=2],
         ( forall(between(1, 300, I), dies(I)),
           wait_until(slots(0), 30) )))).
 
@@ -219,7 +215,7 @@ dies(I) :-
 
 breaks_off(Text, Level, Formal) :-
     retractall(broken(_, _)),
-    with_endpoint(
+    fresh(
         ( setup_call_cleanup(
               connected(Client),
               ( Client = streams(In, Out),
@@ -232,7 +228,7 @@ breaks_off(Text, Level, Formal) :-
 
 test(few_lines_count_all_refusals, Sum == 500) :-
     get_time(T0),
-    with_endpoint(( forall(between(1, 500, _), shouts("GET / HTTP/1.0\r\n")),
+    fresh(( forall(between(1, 500, _), shouts("GET / HTTP/1.0\r\n")),
                     wait_until(counted(500), 30) )),
     get_time(T1),
     counted(Sum),
@@ -243,13 +239,13 @@ test(refusal_with_a_reused_slot_is_reported_once, Sum == 50) :-
         wrap_predicate(typhon_acceptor:refused(_, _), slow, Counted,
                        ( Counted, sleep(0.01) )),
         with_settings([typhon_acceptor:unproved=2],
-                      with_endpoint(( forall(between(1, 50, _), shouts("typhon\n")),
+                      fresh(( forall(between(1, 50, _), shouts("typhon\n")),
                                       wait_until(( noted_so_far(N), N >= 50 ),
                                                  30) ))),
         unwrap_predicate(typhon_acceptor:refused/2, slow)),
     noted_so_far(Sum).
 test(refusals_are_reported_at_the_end, Sum == 20) :-
-    with_endpoint(( forall(between(1, 20, _), shouts("\n")),
+    fresh(( forall(between(1, 20, _), shouts("\n")),
                     wait_until(noted(20), 30) )),
     counted(Sum).
 test(last_refusals_are_reported, Sum == 20) :-
@@ -258,7 +254,7 @@ test(last_refusals_are_reported, Sum == 20) :-
                        ( End,
                          forall(between(1, 20, _),
                                 typhon_acceptor:refused(x, silent)) )),
-        with_endpoint(true),
+        fresh(true),
         unwrap_predicate(typhon_threads:wire_threads_end/0, last)),
     counted(Sum).
 test(violation_by_an_authenticated_client, Level == warning) :-
@@ -266,7 +262,7 @@ test(violation_by_an_authenticated_client, Level == warning) :-
 test(authenticated_client_disconnects_within_a_frame, Level == silent) :-
     breaks_off("resume 0\nabc", Level, _).
 test(client_of_another_version, Line == "typhon 3") :-
-    with_endpoint(setup_call_cleanup(
+    fresh(setup_call_cleanup(
         connected(Client),
         ( say("typhon 1 00 p 1 a:1 90004 64 little\n", Client),
           arg(1, Client, In),

@@ -7,13 +7,13 @@
 
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/cutting_proxy').
+:- use_module('../../../lib/endpoints').
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(lists), [member/2, numlist/3, subtract/3]).
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_kill/2, process_wait/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
-:- use_module(library(socket)).
 :- use_module(library(thread), [concurrent_forall/3]).
 :- use_module(library(typhon/kernel/wire)).
 :- use_module('../../../lib/endpoint_peer', [sleep_until/1]).
@@ -39,15 +39,14 @@ user:message_hook(typhon(endpoint, turned_away(_, cookie)), _, _) :-
                 *******************************/
 
 :- meta_predicate
-    with_endpoint(0),
+    fresh(0),
     with_peers(+, -, 0).
 
-with_endpoint(Goal) :-
+%   fresh(:Goal): as with_endpoint/1; nothing was noted before.
+
+fresh(Goal) :-
     retractall(endpoint_peer:note(_)),
-    setup_call_cleanup(
-        endpoint_start(localhost, 0, [], _),
-        once(Goal),
-        endpoint_stop).
+    with_endpoint(Goal).
 
 %   with_peers(+Count, -Addresses, :Goal): the last argument of peer/3 is
 %   where a peer reads commands.
@@ -59,14 +58,11 @@ with_more(0, Addresses, Addresses, Goal) :-
     !,
     call(Goal).
 with_more(Count, Addresses0, Addresses, Goal) :-
-    project_file('test/lib/endpoint_peer.pl', File),
     Count1 is Count-1,
-    with_swipl(['-g', 'serve(0)', File], Pid, In, Out,
-               ( read_line_to_string(Out, Line),
-                 atom_string(Address, Line),
-                 with_this(Address, Pid, In-Out,
-                           with_more(Count1, [Address|Addresses0], Addresses,
-                                     Goal)) )).
+    with_peer_process([], Pid, Streams, Address,
+                      with_this(Address, Pid, Streams,
+                                with_more(Count1, [Address|Addresses0],
+                                          Addresses, Goal))).
 
 :- meta_predicate with_more(+, +, -, 0), with_this(+, +, +, 0).
 
@@ -131,7 +127,7 @@ wait_if_called(Role, Waiter) :-
 :- begin_tests(simultaneous_connections).
 
 test(two_processes_connect_to_each_other, Late == []) :-
-    with_endpoint(with_peers(1, [A],
+    fresh(with_peers(1, [A],
         ( peer(A, _, Streams),
           findall(Outcome,
                   ( between(1, 150, _),
@@ -141,10 +137,10 @@ test(two_processes_connect_to_each_other, Late == []) :-
                   Late) ))).
 test(first_of_two_simultaneous_connections_stays, Kept == true) :-
     as_process('0000000000000000',
-        with_endpoint(with_peers(1, [A], with_late_callers(second(A, Kept))))).
+        fresh(with_peers(1, [A], with_late_callers(second(A, Kept))))).
 test(offered_connection_is_accepted) :-
     as_process(ffffffffffffffff,
-        with_endpoint(with_peers(1, [A],
+        fresh(with_peers(1, [A],
             setup_call_cleanup(
                 wrap_predicate(typhon_writer:session_up_since(_, _),
                                not_noticed, _, true),
@@ -152,7 +148,7 @@ test(offered_connection_is_accepted) :-
                 unwrap_predicate(typhon_writer:session_up_since/2,
                                  not_noticed))))).
 test(sixteen_processes_connect_to_each_other, Missed == []) :-
-    with_endpoint(with_peers(16, Addresses,
+    fresh(with_peers(16, Addresses,
         ( maplist(reach_others(Addresses), Addresses),
           findall(M, ( member(_, Addresses),
                        thread_get_message(reached(Answer)),
@@ -161,24 +157,19 @@ test(sixteen_processes_connect_to_each_other, Missed == []) :-
 test(slot_of_an_unauthenticated_client_is_freed, Outcome = outcome(ok, _)) :-
     retractall(test_wire:place_wanted),
     with_settings([typhon_acceptor:unproved=1],
-        with_endpoint(with_peers(1, [A],
+        fresh(with_peers(1, [A],
             ( endpoint_address(Me),
-              atomic_list_concat([_, PortText], :, Me),
-              atom_number(PortText, Port),
-              setup_call_cleanup(
-                  tcp_connect('127.0.0.1':Port, Client, []),
-                  ( peer(A, _, In-Out),
-                    command(In, greet(Me, 0)),
-                    wait_until(test_wire:place_wanted, 20)
-                  ),
-                  close(Client, [force(true)])),
+              with_client(_, _,
+                          ( peer(A, _, In-Out),
+                            command(In, greet(Me, 0)),
+                            wait_until(test_wire:place_wanted, 20) )),
               read(Out, Outcome) )))).
 test(no_process_at_the_address) :-
-    with_endpoint(all_unreachable('127.0.0.1:1', 300)).
+    fresh(all_unreachable('127.0.0.1:1', 300)).
 test(wrong_cookie_is_reported_at_once, Status-Refused == exit(3)-true) :-
     project_file('prolog/typhon/kernel/wire', File),
     retractall(test_wire:refused),
-    with_endpoint(( endpoint_address(A),
+    fresh(( endpoint_address(A),
                     format(atom(Goal),
                            "use_module('~w'),endpoint_start(localhost,0,[],_),\c
                             settings:set_setting(typhon_connection_manager:connect_time,600),\c
@@ -259,14 +250,14 @@ connections(Threads) :-
 test(requests_are_sent_in_order_and_precede_later_posts, Notes == Expected) :-
     numlist(1, 500, Numbers),
     numlist(1, 501, Expected),
-    with_endpoint(with_peers(1, [A],
+    fresh(with_peers(1, [A],
         ( send_all(A, Numbers),
           endpoint_post(A, note, 501),
           maplist(answered, Numbers, _),
           ask(A, notes, x, Notes) ))).
 test(waiting_requests_need_no_threads, true(More < 8)) :-
-    with_endpoint(with_settings([typhon_connection_manager:connect_time=1],
-        with_silent_listener(A,
+    fresh(with_settings([typhon_connection_manager:connect_time=1],
+        with_listener(5, A,
             ( statistics(threads, Before),
               send_up_to(A, 300),
               statistics(threads, After),
@@ -274,9 +265,9 @@ test(waiting_requests_need_no_threads, true(More < 8)) :-
               none_answered(300) )))).
 test(request_that_cannot_travel, error(type_error(mobile_term, _))) :-
     stream_property(S, alias(user_error)),
-    with_endpoint(endpoint_request('127.0.0.1:1', echo, S, =(_))).
+    fresh(endpoint_request('127.0.0.1:1', echo, S, =(_))).
 test(waiting_requests_end_with_the_endpoint) :-
-    with_silent_listener(A, with_endpoint(send_up_to(A, 1))),
+    with_listener(5, A, fresh(send_up_to(A, 1))),
     none_answered(1).
 
 :- end_tests(requests_wait_for_the_connection).
@@ -303,17 +294,6 @@ tell_answer(Queue, N, Answer) :-
 answered(N, Answer) :-
     thread_self(Me),
     thread_get_message(Me, answered(N, Answer), [timeout(20)]).
-
-:- meta_predicate with_silent_listener(-, 0).
-
-with_silent_listener(Address, Goal) :-
-    setup_call_cleanup(
-        ( tcp_socket(Socket),
-          tcp_bind(Socket, '127.0.0.1':Port),
-          tcp_listen(Socket, 5),
-          atomic_list_concat(['127.0.0.1', Port], :, Address) ),
-        Goal,
-        tcp_close_socket(Socket)).
 
                 /*******************************
                 *          BIG FRAMES          *
@@ -343,7 +323,7 @@ test(longest_frames, Count == 1) :-
           endpoint_peer:cross(A, Size, 1),
           ask(A, count, x, Count) ))).
 test(answers_of_8_MB_at_once) :-
-    with_endpoint(with_peers(1, [A],
+    fresh(with_peers(1, [A],
         ( endpoint_address(Me),
           thread_self(Queue),
           ask(A, echo, x, x),
@@ -366,7 +346,7 @@ with_codec(text, Goal) :-
 %   while small requests go on.
 
 cross(Size, N, Count) :-
-    with_endpoint(with_peers(1, [A],
+    fresh(with_peers(1, [A],
         ( endpoint_address(Me),
           ask(A, echo, x, x),
           concurrent_forall(
@@ -387,7 +367,7 @@ cross(Size, N, Count) :-
 :- begin_tests(disconnected_peers).
 
 test(disconnected_peers_leave_no_queue, Queues == Before) :-
-    with_endpoint(with_peers(3, Addresses,
+    fresh(with_peers(3, Addresses,
         ( queues(Before),
           forall(member(A, Addresses), ask(A, echo, x, x)),
           assertion(endpoint_flush(5)),
@@ -398,7 +378,7 @@ test(disconnected_peers_leave_no_queue, Queues == Before) :-
           queues(Queues) ))).
 test(number_of_kept_sessions_is_bounded) :-
     with_settings([typhon_connection_manager:resting=2],
-        with_endpoint(with_peers(4, Addresses,
+        fresh(with_peers(4, Addresses,
             ( forall(member(A, Addresses), ask(A, echo, x, x)),
               assertion(endpoint_flush(5)),
               maplist(kill, Addresses),
@@ -406,7 +386,7 @@ test(number_of_kept_sessions_is_bounded) :-
               forall(member(A, Addresses),
                      assertion(endpoint_peer(A, process(_)))) )))).
 test(returning_peer_resumes_its_session, Notes == [1, 2, 3]) :-
-    with_endpoint(with_peers(1, [Peer],
+    fresh(with_peers(1, [Peer],
         with_proxy(Peer, Proxy,
             ( proxy_address(Proxy, A),
               forall(between(1, 3, N),
@@ -417,7 +397,7 @@ test(returning_peer_resumes_its_session, Notes == [1, 2, 3]) :-
               ask(A, notes, x, Notes),
               sessions(1) )))).
 test(answer_to_a_disconnected_peer, Answer == answer(x)) :-
-    with_endpoint(with_peers(1, [Peer],
+    fresh(with_peers(1, [Peer],
         with_proxy(Peer, Proxy,
             ( proxy_address(Proxy, A),
               thread_self(Me),
@@ -426,7 +406,7 @@ test(answer_to_a_disconnected_peer, Answer == answer(x)) :-
               thread_get_message(Me, Answer, [timeout(20)]) )))).
 test(peer_records_are_bounded, true(Count =< 5)) :-
     with_settings([typhon_peer_cache:contacts=5],
-        with_endpoint(
+        fresh(
             ( forall(between(1, 20, P),
                      ( atom_concat('127.0.0.1:', P, A), unreachable(A) )),
               aggregate_all(count, typhon_peer_cache:last_process(_, _, _),
@@ -450,7 +430,7 @@ sessions(Count) :-
 :- begin_tests(flushes).
 
 test(each_flush_ends, Failed == 0) :-
-    with_endpoint(with_peers(1, [A],
+    fresh(with_peers(1, [A],
         ( ask(A, echo, x, x),
           flag(test_failed, _, 0),
           concurrent_forall(between(1, 4, _),
