@@ -9,65 +9,60 @@
 
 /** <module> Tests of remote/2 on hosts of this process
 
-Between processes: test_processes.pl.
+Those of other processes are used by all tests of hops.
 */
 
 :- begin_tests(remote).
 
-test(bindings_are_returned, true(X-Y == 3-abc)) :-
-    with_hosts([alpha], remote(alpha, ( X is 1+2, atom_concat(a, bc, Y) ))).
+%   answers(-Behaviour, -Goal, -X, -Value): Goal on alpha, of alpha and beta,
+%   binds X to Value.
+
+answers(bindings_are_returned, ( Y is 1+2, atom_concat(a, Y, X) ), X, a3).
+answers(tuple_space,
+        ( leave(p(1)), leave(p(2)), take(p(1)), sense(p(X)) ), X, 2).
+answers(vocabulary_of_a_host, ( neighbours(N), host_load(L), here(_) ), N-L,
+        []-0).
+answers(qualified_goal, lists:last([a,b,c], X), X, c).
+answers(nested_remote, ( typhon:remote(beta, leave(q(7))),
+                         typhon:remote(beta, take(q(X))) ), X, 7).
+answers(each_host_has_its_own_place,
+        ( leave(a), typhon:remote(beta, findall(Y, sense(Y), X)) ), X, []).
+
+%   raises(-Host, -Goal, -Error): called where alpha runs.
+
+raises(alpha, _ is foo, type_error(evaluable, foo/0)).
+raises(alpha, self(_), existence_error(running_agent, here)).
+raises(alpha, _, instantiation_error).
+raises(alpha, 3, type_error(callable, 3)).
+raises(_, true, instantiation_error).
+raises(nowhere, true, existence_error(host, nowhere)).
+raises('gamma@127.0.0.1:1', true, host_unreachable('gamma@127.0.0.1:1')).
+raises(beta, true, permission_error(remote, host, beta)).
+
+test(answers, [ forall(( answers(_, Goal, X, Value),
+                         member(By, [name,address]) )), X == Value ]) :-
+    with_hosts([alpha,beta],
+               ( ( By == name -> Host = alpha ; address(alpha, Host) ),
+                 remote(Host, Goal) )).
+test(raises, [forall(raises(Host, Goal, Error)), error(Error)]) :-
+    with_hosts([alpha, beta-[remote(false)]], remote(Host, Goal)).
 test(failure, [fail]) :-
     with_hosts([alpha], remote(alpha, fail)).
 test(remote_goal_is_called_once, true(Xs == [1])) :-
     with_hosts([alpha], findall(X, remote(alpha, member(X, [1,2])), Xs)).
-test(errors, error(type_error(evaluable, foo/0))) :-
-    with_hosts([alpha], remote(alpha, _ is foo)).
 test(exceptions, throws(oops)) :-
     with_hosts([alpha], remote(alpha, throw(oops))).
-test(by_address, true(X == 1)) :-
-    with_hosts([alpha], ( address(alpha, A), remote(A, X = 1) )).
 test(goal_runs_in_the_place, true(P == Place)) :-
     with_hosts([alpha],
                ( host_property(alpha, place(Place)),
                  remote(alpha, ( assertz(p(1)), context_module(P) )),
                  assertion(predicate_property(Place:p(_), dynamic)) )).
-test(each_host_has_its_own_place, true(L-M == [a]-[b])) :-
-    with_hosts([alpha,beta],
-               ( remote(alpha, leave(a)), remote(beta, leave(b)),
-                 remote(alpha, findall(X, sense(X), L)),
-                 remote(beta, findall(X, sense(X), M)) )).
-test(tuple_space, true(X == 2)) :-
-    with_hosts([alpha],
-               ( remote(alpha, leave(p(1))), remote(alpha, leave(p(2))),
-                 remote(alpha, take(p(1))), remote(alpha, sense(p(X))) )).
-test(vocabulary_of_a_host, true(N-L == []-0)) :-
-    with_hosts([alpha], remote(alpha, ( neighbours(N), host_load(L), here(_) ))).
-test(remote_goal_has_no_self, error(existence_error(running_agent, here))) :-
-    with_hosts([alpha], remote(alpha, self(_))).
-test(qualified_goal, true(X == c)) :-
-    with_hosts([alpha], remote(alpha, lists:last([a,b,c], X))).
-test(refused_remote_goal, error(permission_error(remote, host, alpha))) :-
-    with_hosts([alpha-[remote(false)]], remote(alpha, true)).
-test(unknown_host, error(existence_error(host, nowhere))) :-
-    with_hosts([alpha], remote(nowhere, true)).
 test(unknown_host_of_a_process, error(existence_error(host, _))) :-
     with_hosts([alpha],
                ( address(alpha, Alpha),
                  atom_concat(alpha, Endpoint, Alpha),
                  atom_concat(nowhere, Endpoint, Nowhere),
                  remote(Nowhere, true) )).
-test(unbound_host, error(instantiation_error)) :-
-    with_hosts([alpha], remote(_, true)).
-test(unbound_goal, error(instantiation_error)) :-
-    with_hosts([alpha], remote(alpha, _)).
-test(not_callable, error(type_error(callable, 3))) :-
-    with_hosts([alpha], remote(alpha, 3)).
-test(unreachable, error(host_unreachable('gamma@127.0.0.1:1'))) :-
-    with_hosts([alpha], remote('gamma@127.0.0.1:1', true)).
-test(nested_remote, true(X == 7)) :-
-    with_hosts([alpha,beta],
-               remote(alpha, ( typhon:remote(beta, leave(q(7))),
-                               typhon:remote(beta, take(q(X))) ))).
 test(error_context_is_returned, true(H1 == A)) :-
     with_hosts([alpha,beta],
                ( address(alpha, A),

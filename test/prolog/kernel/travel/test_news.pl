@@ -1,13 +1,10 @@
 :- module(test_news, []).
 :- use_module('../../../lib/common', [wait_until/2, with_settings/2]).
+:- use_module('../../../lib/endpoints', [with_listener/3]).
 :- use_module('../../../lib/peers').
-:- use_module(library(apply), [maplist/2]).
+:- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
-:- use_module(library(settings), [set_setting/2, setting/2]).
-:- use_module(library(socket),
-              [ tcp_bind/2, tcp_close_socket/1, tcp_listen/2,
-                tcp_socket/1 ]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/travel/news),
               [news_carried/1, news_hurry/0, news_send/3]).
@@ -42,16 +39,9 @@ kept_under_way(First, Then, Kept) :-
 :- meta_predicate with_silent_home(-, 0).
 
 with_silent_home(Home, Goal) :-
-    setting(typhon_connection_manager:connect_time, Time),
-    setup_call_cleanup(
-        ( set_setting(typhon_connection_manager:connect_time, 0.2),
-          tcp_socket(Socket) ),
-        ( tcp_bind(Socket, '127.0.0.1':Port),
-          tcp_listen(Socket, 5),
-          format(atom(Home), '127.0.0.1:~d', [Port]),
-          setup_call_cleanup(host_start(alpha), Goal, host_stop(alpha)) ),
-        ( tcp_close_socket(Socket),
-          set_setting(typhon_connection_manager:connect_time, Time) )).
+    with_settings([typhon_connection_manager:connect_time=0.2],
+        with_listener(5, Home,
+            setup_call_cleanup(host_start(alpha), Goal, host_stop(alpha)))).
 
 %   The worker that has posted news waits for an alarm.
 
@@ -128,27 +118,28 @@ act(waits) :-                           % for more, or is gone already
 
 :- begin_tests(news).
 
-test(newest_news_counts, Kept == [News2]) :-
-    at(1, News1), at(2, News2),
-    kept_news([News1, News2], Kept).
-test(newest_news_counts_in_any_order, Kept == [News2]) :-
-    at(1, News1), at(2, News2),
-    kept_news([News2, News1], Kept).
-test(end_counts, Kept == [End]) :-
-    at(2, News), end(2, End),
-    kept_news([News, End], Kept).
-test(end_before_older_news, Kept == [End]) :-
-    at(2, News), end(2, End),
-    kept_news([End, News], Kept).
-test(end_queued_during_a_send, Kept == [End]) :-
-    at(2, News), end(2, End),
-    kept_under_way(News, End, Kept).
-test(end_under_way_precedes_news_of_the_same_hop, Kept == [End]) :-
-    at(2, News), end(2, End),
-    kept_under_way(End, News, Kept).
-test(later_news_follow_the_end_of_a_discarded_copy, Kept == [News]) :-
-    end(1, End), at(2, News),
-    kept_under_way(End, News, Kept).
+%   keeps(-How, -First, -Then, -Kept): of news of an agent, at(Hops) or end(Hops), that
+%   are given in this order, or while First is being posted (`under_way`).
+
+keeps(in_order, at(1), at(2), at(2)).
+keeps(in_order, at(2), at(1), at(2)).
+keeps(in_order, at(2), end(2), end(2)).
+keeps(in_order, end(2), at(2), end(2)).
+keeps(under_way, at(2), end(2), end(2)).
+keeps(under_way, end(2), at(2), end(2)).
+keeps(under_way, end(1), at(2), at(2)). % the end of a discarded copy
+
+test(newest_news_are_kept, [ forall(keeps(How, First0, Then0, Kept0)),
+                             Kept == [Expected] ]) :-
+    maplist(news_of, [First0,Then0,Kept0], [First,Then,Expected]),
+    (   How == in_order
+    ->  kept_news([First,Then], Kept)
+    ;   kept_under_way(First, Then, Kept)
+    ).
+
+news_of(at(Hops), News) :- at(Hops, News).
+news_of(end(Hops), News) :- end(Hops, News).
+
 test(news_are_batched_after_a_pause, Posts == [10]) :-
     findall(tell(I, News), ( between(1, 10, I), at(I, News) ), Acts),
     sent_with_pause(0.3, Acts, Posts).

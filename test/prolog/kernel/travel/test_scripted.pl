@@ -1,7 +1,7 @@
 :- module(test_scripted, []).
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/scripted_hops').
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(plunit)).
 
 /** <module> Hops with a single disturbed frame
@@ -11,50 +11,38 @@ dies, and the result must be as doc/agents.md guarantees. Long scenarios are
 sampled here; `make scripted` runs all cases.
 */
 
+%   each(-Way, -Scenarios, -Whens, :Disturbs): call(Disturbs, Scenario, Link,
+%   When) for these Scenarios, their links and Whens.
+
+each(Way, All, [before,inside,after], disturbs(Program, cut)) :-
+    all_scenarios(All),
+    member(Way-Program, [ short-known, short-forgotten, both-known,
+                          long-known ]).
+each(short, All, [before,inside], disturbs(known, cut_twice)) :-
+    all_scenarios(All).
+each(short, [ring,clone,follow], [before], disturbs(known, hold(0.1))).
+each(short, [there_and_back,follow], [inside], disturbs(known, mute)).
+each(short, [there_and_back,ring,follow], [before], stops(look)).
+each(short, [there_and_back,ring], [before], stops(dispose)).
+
+all_scenarios(All) :-
+    findall(Scenario, scenario(Scenario, _), All).
+
+disturbs(Program, Action, Scenario, Link, When) :-
+    each_frame(Scenario, Program, Link, When, Action).
+
+stops(Act, Scenario, Link, When) :-
+    each_stop(Scenario, known, Link, When, Act).
+
 :- begin_tests(scripted).
 
-test(connection_is_cut_at_each_frame,
-     [forall(member(Way-Program, [ short-known,
-                                   short-forgotten,
-                                   both-known,
-                                   long-known ]))]) :-
+test(each_frame, forall(each(Way, Scenarios, Whens, Disturbs))) :-
     with_scripted(Way,
                   forall(( scenario(Scenario, Links),
+                           memberchk(Scenario, Scenarios),
                            member(Link, Links),
-                           member(When, [before, inside, after]) ),
-                         each_frame(Scenario, Program, Link, When, cut))).
-test(connection_is_cut_twice) :-
-    with_scripted(short,
-                  forall(( scenario(Scenario, Links),
-                           member(Link, Links),
-                           member(When, [before, inside]) ),
-                         each_frame(Scenario, known, Link, When,
-                                    cut_twice))).
-test(each_frame_is_delayed) :-
-    with_scripted(short,
-                  forall(( member(Scenario, [ring, clone, follow]),
-                           scenario(Scenario, Links),
-                           member(Link, Links) ),
-                         each_frame(Scenario, known, Link, before,
-                                    hold(0.1)))).
-test(peer_is_silent_at_each_frame) :-
-    with_scripted(short,
-                  forall(( member(Scenario, [there_and_back, follow]),
-                           scenario(Scenario, Links),
-                           member(Link, Links) ),
-                         each_frame(Scenario, known, Link, inside, mute))).
-test(agent_is_queried_at_each_frame) :-
-    with_scripted(short,
-                  forall(( member(Scenario, [there_and_back, ring, follow]),
-                           scenario(Scenario, Links),
-                           member(Link, Links) ),
-                         each_stop(Scenario, known, Link, before, look))).
-test(agent_is_disposed_of_at_each_frame) :-
-    with_scripted(short,
-                  forall(( member(Scenario, [there_and_back, ring]),
-                           scenario(Scenario, Links),
-                           member(Link, Links) ),
-                         each_stop(Scenario, known, Link, before, dispose))).
+                           member(When, Whens) ),
+                         call(Disturbs, Scenario, Link, When))).
 test(peer_crashes_at_each_frame) :-
     with_scripted(short,
                   forall(crash(Scenario, Link, When, Peer, Restart),
