@@ -3,6 +3,7 @@
             peer_restart/1,             % +Peer
             peer_do/2,                  % +Peer, ?Goal
             peer_try/3,                 % +Peer, ?Goal, -Outcome
+            peer_agent/4,               % +Peer, +Clauses, +Facts, -Id
             peer_proxy/2,               % +Peer, -Proxy
             peer_signal/2,              % +Peer, +Signal
             peer_kill/1,                % +Peer
@@ -216,6 +217,14 @@ peer_try(Peer, Goal, Outcome) :-
     ->  throw(error(system_error(peer_died(Peer)), _))
     ;   Outcome = Answer
     ).
+
+%!  peer_agent(+Peer, +Clauses, +Facts, -Id) is det.
+%
+%   An agent on the host of Peer.
+
+peer_agent(Peer, Clauses, Facts, Id) :-
+    peer_do(Peer, agent_create(clauses(Clauses), Id,
+                               [host(Peer), facts(Facts)])).
 
 %!  peer_messages(+Peer, -Lines:list(string)) is det.
 %

@@ -67,10 +67,7 @@ heavy(Peer, Route, Hops, Facts, Id) :-
            forall(between(1, Count, I), assertz(load(I, some(load)))),
            plan(All, Stops), walk(0, All, Stops))
     | Clauses ],
-    peer_do(Peer, agent_create(clauses(Heavy), Id,
-                               [ host(Peer),
-                                 facts([ plan(Hops, Route),
-                                         facts(Facts) ]) ])).
+    peer_agent(Peer, Heavy, [plan(Hops, Route), facts(Facts)], Id).
 
 walker([ (:- agent(walker, [state([plan/2])])),
          (main :- plan(Hops, Route), walk(0, Hops, Route)),
@@ -149,10 +146,7 @@ swapper(Peer, [Here, There, Aside], Rounds, Id) :-
       again(yes, _, _),
       (again(no, Y, Z) :- move(Z), sleep(0.001), go(Y, Z))
     ],
-    peer_do(Peer, agent_create(clauses(Clauses), Id,
-                               [ host(Peer),
-                                 facts([ hosts(Here, There, Aside),
-                                         rounds(Rounds) ]) ])).
+    peer_agent(Peer, Clauses, [hosts(Here, There, Aside), rounds(Rounds)], Id).
 
 %!  reader(+Peer, +Host, +Count, -Id) is det.
 %
@@ -167,7 +161,7 @@ reader(Peer, Host, Count, Id) :-
       (note(N) :- N > 0, receive(_-(I-_)), leave(noted(I)), N1 is N-1,
                   note(N1))
     ],
-    peer_do(Peer, agent_create(clauses(Clauses), Id, [host(Peer)])).
+    peer_agent(Peer, Clauses, [], Id).
 
 %!  collector(+Peer, +Route, +Count, -Id) is det.
 %!  collected(+Peer, +Id, -CountSum) is semidet.
@@ -196,10 +190,7 @@ collector(Peer, Route, Count, Id) :-
                 ;   true
                 ))
     ],
-    peer_do(Peer, agent_create(clauses(Clauses), Id,
-                               [ host(Peer),
-                                 facts([ route(Route), wanted(Count),
-                                         got(0, 0) ]) ])).
+    peer_agent(Peer, Clauses, [route(Route), wanted(Count), got(0, 0)], Id).
 
 collected(Peer, Id, Count-Sum) :-
     peer_do(Peer, remote(Peer, sense(got(Id, Count, Sum)))).
@@ -234,8 +225,7 @@ bouncer(Peer, Route, Hops, Id) :-
                          self(Self), hops(N),
                          leave(bounced(Self, N, First-Last)))
     ],
-    peer_do(Peer, agent_create(clauses(Clauses), Id,
-                               [host(Peer), facts([route(Route)])])).
+    peer_agent(Peer, Clauses, [route(Route)], Id).
 
 bounced(Peer, Id, Hops, Pace) :-
     peer_do(Peer, remote(Peer, sense(bounced(Id, Hops, Pace)))).
@@ -252,8 +242,7 @@ cloner(Peer, Host, Id) :-
       (branch(parent(Clone)) :- self(Self), leave(parent_of(Self, Clone))),
       (branch(clone(_)) :- receive(_-go))
     ],
-    peer_do(Peer, agent_create(clauses(Clauses), Id,
-                               [host(Peer), facts([there(Host)])])).
+    peer_agent(Peer, Clauses, [there(Host)], Id).
 
 %!  other_program(+Peer, +Host, +Number) is semidet.
 %
@@ -263,6 +252,5 @@ other_program(Peer, Host, Number) :-
     Clauses = [ (:- agent(other, [state([to/1])])),
                 (main :- to(Host1), move(Host1), seen(_)),
                 seen(Number) ],
-    peer_do(Peer, agent_create(clauses(Clauses), Id,
-                               [host(Peer), facts([to(Host)])])),
+    peer_agent(Peer, Clauses, [to(Host)], Id),
     ended(Peer, Id, done).

@@ -3,7 +3,6 @@
 :- use_module('../../lib/single_life').
 :- use_module(library(plunit)).
 :- use_module(library(process)).
-:- use_module(library(readutil)).
 
 :- needs([wasm]).
 

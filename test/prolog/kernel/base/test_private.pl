@@ -37,11 +37,6 @@ put(File, Text) :-
 text(File, Text) :-
     read_file_to_string(File, Text, []).
 
-:- meta_predicate in_dir(?, 0, +).
-
-in_dir(Dir, Goal, Dir) :-
-    call(Goal).
-
 new_text(File, N, Text) :-
     private_new(File, N),
     text(File, Text).
@@ -55,37 +50,37 @@ fails(_) :-
 :- begin_tests(private).
 
 test(folder, Modes-Count == ['rwx------','rwx------']-2) :-
-    with_tmp_dir(in_dir(Dir, ( in(Dir, x, Prefix),
+    with_tmp_dir(Dir, ( in(Dir, x, Prefix),
                           private_folder(Prefix, A), private_folder(Prefix, B),
                           maplist(mode, [A,B], Modes),
-                          sort([A,B], Both), length(Both, Count) ))).
+                          sort([A,B], Both), length(Both, Count) )).
 test(first_of_many_makes_the_file, Text-Beside == "1"-[]) :-
-    with_tmp_dir(in_dir(Dir, ( in(Dir, x, File),
+    with_tmp_dir(Dir, ( in(Dir, x, File),
                           private_new(File, 1), private_new(File, 2),
                           text(File, Text),
                           findall(F, ( directory_member(Dir, F, []),
-                                       F \== File ), Beside) ))).
+                                       F \== File ), Beside) )).
 test(race, Distinct == 1) :-
-    with_tmp_dir(in_dir(Dir, ( in(Dir, x, File),
+    with_tmp_dir(Dir, ( in(Dir, x, File),
                           numlist(1, 16, Ns),
                           concurrent_maplist(new_text(File), Ns, Texts),
-                          sort(Texts, Set), length(Set, Distinct) ))).
+                          sort(Texts, Set), length(Set, Distinct) )).
 test(link_is_replaced_and_not_followed, Text-Mode == "theirs"-'rw-------') :-
-    with_tmp_dir(in_dir(Dir, ( in(Dir, victim, Victim), put(Victim, theirs),
+    with_tmp_dir(Dir, ( in(Dir, victim, Victim), put(Victim, theirs),
                           in(Dir, x, File), link_file(Victim, File, symbolic),
                           private_write(File, put_text(ours)),
-                          text(Victim, Text), mode(File, Mode) ))).
+                          text(Victim, Text), mode(File, Mode) )).
 test(file_stays_if_its_writer_fails, Text-Beside == "old"-[]) :-
-    with_tmp_dir(in_dir(Dir, ( in(Dir, x, File), put(File, old),
+    with_tmp_dir(Dir, ( in(Dir, x, File), put(File, old),
                           catch(private_write(File, fails),
                                 error(e, _), true),
                           text(File, Text),
                           findall(F, ( directory_member(Dir, F, []),
-                                       F \== File ), Beside) ))).
+                                       F \== File ), Beside) )).
 test(open_makes_private, [A,B] == ['rw-------','rw-------']) :-
-    with_tmp_dir(in_dir(Dir, ( in(Dir, x, File), opened(File, A),
+    with_tmp_dir(Dir, ( in(Dir, x, File), opened(File, A),
                           in(Dir, y, Old), put(Old, old), chmod(Old, 0o666),
-                          opened(Old, B) ))).
+                          opened(Old, B) )).
 test(devices_are_left_alone, Mode == 'rw-rw-rw-') :-
     private_open('/dev/null', append, Out, []),
     close(Out),

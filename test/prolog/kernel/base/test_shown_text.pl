@@ -38,39 +38,27 @@ random_name(Name) :-
 
 %   term_of(+Name, -Term): an error or message that holds Name.
 
-term_of(N, error(type_error(N, x), _)).
-term_of(N, error(type_error(x, N), context(N/1, N))).
-term_of(N, error(domain_error(N, f(N)), context(_, N))).
-term_of(N, error(existence_error(N, N), _)).
-term_of(N, error(existence_error(host, N), _)).
-term_of(N, error(existence_error(agent, N), _)).
-term_of(N, error(existence_error(x, N, N), _)).
-term_of(N, error(permission_error(N, N, N), context(_, N))).
-term_of(N, error(representation_error(N), _)).
-term_of(N, error(evaluation_error(N), _)).
-term_of(N, error(resource_error(N), _)).
-term_of(N, error(syntax_error(N), string(N, 0))).
-term_of(N, error(syntax_error(x), file(N, 1, 2, 3))).
-term_of(N, error(timeout_error(N, N), _)).
-term_of(N, error(io_error(N, N), context(N, N))).
-term_of(N, error(socket_error(x, N), _)).
-term_of(N, error(system_error(N), _)).
-term_of(N, error(shell(N, N), _)).
-term_of(N, error(move_refused(N, N), _)).
-term_of(N, error(host_unreachable(N), _)).
-term_of(N, error(N, N)).
-term_of(N, unhandled_exception(N)).
-term_of(N, unhandled_exception(error(type_error(N, N), _))).
-term_of(N, typhon(raised(N))).
-term_of(N, typhon(told(N, N))).
-term_of(N, typhon(log(N, N, f(N)))).
-term_of(N, typhon(over_limit(N, N))).
-term_of(N, typhon(message_failed(N, N, N))).
-term_of(N, typhon(undeliverable(existence_error(agent, N), N, N, N))).
-term_of(N, typhon(not_from(N, N, N))).
-term_of(N, typhon(traced(N, N, sent(N, N)))).
-term_of(N, typhon(log_unheard(N))).
-term_of(N, typhon(N)).
+term_of(N, error(Formal, Context)) :-
+    member(Formal-Context,
+           [ type_error(N, x)-_, type_error(x, N)-context(N/1, N),
+             domain_error(N, f(N))-context(_, N), existence_error(N, N)-_,
+             existence_error(host, N)-_, existence_error(agent, N)-_,
+             existence_error(x, N, N)-_,
+             permission_error(N, N, N)-context(_, N),
+             representation_error(N)-_, evaluation_error(N)-_,
+             resource_error(N)-_, syntax_error(N)-string(N, 0),
+             syntax_error(x)-file(N, 1, 2, 3), timeout_error(N, N)-_,
+             io_error(N, N)-context(N, N), socket_error(x, N)-_,
+             system_error(N)-_, shell(N, N)-_, move_refused(N, N)-_,
+             host_unreachable(N)-_, N-N ]).
+term_of(N, unhandled_exception(Ball)) :-
+    member(Ball, [N, error(type_error(N, N), _)]).
+term_of(N, typhon(Message)) :-
+    member(Message,
+           [ raised(N), told(N, N), log(N, N, f(N)), over_limit(N, N),
+             message_failed(N, N, N), not_from(N, N, N), log_unheard(N), N,
+             undeliverable(existence_error(agent, N), N, N, N),
+             traced(N, N, sent(N, N)) ]).
 
 as_printed(Term, Text) :-
     '$messages':translate_message(Term, Lines, []),

@@ -7,7 +7,6 @@
 :- use_module(library(lists)).
 :- use_module(library(process)).
 :- use_module(library(readutil)).
-:- use_module(library(settings)).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/base/own_thread)).
 :- use_module(library(typhon/kernel/base/server), [server_call/4]).

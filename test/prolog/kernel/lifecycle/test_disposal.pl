@@ -281,10 +281,8 @@ test(force, True-O == disposed-done) :-
     with_peers([a, b],
                ( peer_host(b, B),
                  runaway_to(B, Id),
-                 peer_do(b, agent_create(
-                                clauses([ (:- agent(o)),
-                                          (main :- receive(_-go)) ]),
-                                Other, [])),
+                 peer_agent(b, [ (:- agent(o)),
+                                 (main :- receive(_-go)) ], [], Other),
                  peer_do(b, wait_until(( agent_property(Id, busy(S)),
                                          S > 0.05 ), 10)),
                  peer_do(a, agent_dispose(Id, [force(0.1)])),
@@ -311,10 +309,9 @@ test(warning, true(sub_string(All, _, _, _, "runs on"))) :-
 test(agent_that_ends_during_a_listing_is_not_queried_elsewhere, Found == []) :-
     with_peers([a, b],
                ( peer_host(b, B),
-                 peer_do(a, agent_create(clauses([ (:- agent(r)),
-                                                   (main :- move(B)),
-                                                   on_message(_, _) ]),
-                                         Id, [])),
+                 peer_agent(a, [ (:- agent(r)),
+                                 (main :- move(B)),
+                                 on_message(_, _) ], [], Id),
                  peer_do(b, wait_until(agent_property(Id, state(resident)), 10)),
                  peer_signal(a, stop),
                  peer_do(b, \+ \+ prolog_wrap:wrap_predicate(
@@ -325,13 +322,12 @@ test(agent_that_ends_during_a_listing_is_not_queried_elsewhere, Found == []) :-
                  peer_signal(a, cont) )).
 
 runaway_to(Host, Id) :-
-    peer_do(a, agent_create(clauses([ (:- agent(r)),
-                                      (main :- move(Host), lp),
-                                      (lp :- lp) ]), Id, [])).
+    peer_agent(a, [ (:- agent(r)),
+                    (main :- move(Host), lp),
+                    (lp :- lp) ], [], Id).
 
 again(B) :-
-    peer_do(a, agent_create(clauses([ (:- agent(r)), (main :- move(B)) ]),
-                            Id, [])),
+    peer_agent(a, [ (:- agent(r)), (main :- move(B)) ], [], Id),
     peer_do(a, agent_join(Id, done, 10)).
 
 :- end_tests(disposal_elsewhere).

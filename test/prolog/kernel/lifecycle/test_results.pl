@@ -26,7 +26,7 @@ virtually(Goal) :-
 %   created_on_a(+Clauses, -Id)
 
 created_on_a(Clauses, Id) :-
-    peer_do(a, agent_create(clauses([(:- agent(r))|Clauses]), Id, [])).
+    peer_agent(a, [(:- agent(r))|Clauses], [], Id).
 
 test(agent_whose_process_is_gone_is_lost, Outcome == lost(B)) :-
     with_peers([a, b],
@@ -277,15 +277,15 @@ test(invalid_join,
 test(family_in_several_processes, true(Outcomes-N == [done]-10)) :-
     with_peers([a, b],
                ( peer_host(a, A), peer_host(b, B),
-                 peer_do(a, agent_create(clauses(
-                   [ (:- agent(f)),
-                     (main :- clone(W1), ( W1 = clone(_) -> leaf(B)
-                            ; clone(B, W2), ( W2 = clone(_) -> leaf(A)
-                            ; move(B), clone(W3), ( W3 = clone(_) -> leaf(A)
-                            ; move(A), sleep(0.1) ) ) )),
-                     (leaf(H) :- clone(H, W), ( W = parent(_)
-                                              -> clone(_), sleep(0.1)
-                                              ;  true )) ]), Id, [])),
+                 peer_agent(a,
+                     [ (:- agent(f)),
+                       (main :- clone(W1), ( W1 = clone(_) -> leaf(B)
+                              ; clone(B, W2), ( W2 = clone(_) -> leaf(A)
+                              ; move(B), clone(W3), ( W3 = clone(_) -> leaf(A)
+                              ; move(A), sleep(0.1) ) ) )),
+                       (leaf(H) :- clone(H, W), ( W = parent(_)
+                                                -> clone(_), sleep(0.1)
+                                                ;  true )) ], [], Id),
                  peer_do(b, agent_join(family(Id), FromB, 20)),
                  peer_do(a, agent_join(family(Id), FromA, 20)) )),
     FromA == FromB,
@@ -296,9 +296,9 @@ test(family_in_several_processes, true(Outcomes-N == [done]-10)) :-
 test(cloned_elsewhere_from_outside, Os == [timeout,timeout]) :-
     with_peers([a, b],
                ( peer_host(b, B),
-                 peer_do(a, agent_create(clauses(
-                     [ (:- agent(f)), (main :- move(B), receive(_-go)) ]),
-                     Id, [])),
+                 peer_agent(a,
+                     [ (:- agent(f)), (main :- move(B), receive(_-go)) ],
+                     [], Id),
                  peer_do(b, wait_until(agent_state_here(Id, waiting), 10)),
                  peer_do(a, agent_clone(Id, _)),
                  peer_do(a, agent_join(family(Id), Pairs, 0.2)) )),

@@ -5,7 +5,6 @@
 :- use_module('../../../lib/fixtures').
 :- use_module(library(filesex)).
 :- use_module(library(lists)).
-:- use_module(library(readutil)).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/program),
               [payload_load/2, program_hash/2, program_load/6]).

@@ -69,20 +69,13 @@ changes(nb_setval(test_key, 1), nb_current(test_key)).
 changes(b_setval(test_key, 1), nb_current(test_key)).
 changes(nb_setval(typhon_turns, none), nb_current(typhon_turns)).
 
-flag(occurs_check, true).
-flag(occurs_check, error).
-flag(double_quotes, atom).
-flag(user:double_quotes, atom).
-flag(unknown, fail).
-flag(iso, true).
-flag(prefer_rationals, true).
-flag(optimise, true).
-flag(last_call_optimisation, false).
-flag(generate_debug_info, false).
-flag(character_escapes, false).
-flag(float_zero_div, infinity).
-flag(stack_limit, 500 000 000).
-flag(gc, false).
+flag(Flag, Value) :-
+    member(Flag-Value,
+           [ occurs_check-true, occurs_check-error, double_quotes-atom,
+             (user:double_quotes)-atom, unknown-fail, iso-true,
+             prefer_rationals-true, optimise-true, last_call_optimisation-false,
+             generate_debug_info-false, character_escapes-false,
+             float_zero_div-infinity, stack_limit-500 000 000, gc-false ]).
 
 null(S) :-
     stream_property(S, alias(test_null)).
@@ -120,33 +113,16 @@ with_streams(Goal) :-
         ( set_output(user_output), set_input(user_input),
           close(Out), close(In) )).
 
-refused(format_predicate(_, _)).
-refused(trace).
-refused(trace(_)).
-refused(trace(_, _)).
-refused(spy(_)).
-refused(nospyall).
-refused(debug).
-refused(nodebug).
-refused(leash(_)).
-refused(visible(_)).
-refused(tspy(_)).
-refused(set_breakpoint(_, _, _, _)).
-refused(abort).
-refused(thread_exit(_)).
-refused(at_halt(_)).
-refused(on_signal(_, _, _)).
-refused(working_directory(_, '/')).
-refused(umask(_, 0)).
-refused(thread_detach(Me)) :-
-    thread_self(Me).
-refused(cancel_halt(_)).
-refused(protocol(_)).
-refused(detach_IO).
-refused(chdir('/')).
-refused(set_stream(user_output, tty(false))).
-refused(set_stream(_, alias(user_error))).
-refused(redefine_system_predicate(_)).
+refused(Goal) :-
+    thread_self(Me),
+    member(Goal,
+           [ format_predicate(_, _), trace, trace(_), trace(_, _), spy(_),
+             nospyall, debug, nodebug, leash(_), visible(_), tspy(_),
+             set_breakpoint(_, _, _, _), abort, thread_exit(_), at_halt(_),
+             on_signal(_, _, _), working_directory(_, '/'), umask(_, 0),
+             thread_detach(Me), cancel_halt(_), protocol(_), detach_IO,
+             chdir('/'), set_stream(user_output, tty(false)),
+             set_stream(_, alias(user_error)), redefine_system_predicate(_) ]).
 
 not_refused(Goal, Clauses, Outcome) :-
     refused(Goal),

@@ -27,10 +27,9 @@ burden(walks, [ (burden :- go(b2), go(b), burden),
 
 guest(Host, Kind, Id) :-
     burden(Kind, Clauses),
-    peer_do(a, agent_create(clauses([ (:- agent(guest, [state([to/1])])),
-                                      (main :- to(Host), move(Host), burden)
-                                    | Clauses ]),
-                            Id, [host(a), facts([to(Host)])])).
+    peer_agent(a, [ (:- agent(guest, [state([to/1])])),
+                    (main :- to(Host), move(Host), burden)
+                  | Clauses ], [to(Host)], Id).
 
 came(Id) :-
     peer_do(b, typhon:agent_property(Id, host(Host))),

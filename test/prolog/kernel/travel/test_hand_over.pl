@@ -28,8 +28,7 @@ set_under_way(Facts, Id) :-
     peer_host(b, B),
     travel(a, [B, A], 4),               % connects, and brings no program of its
     visitor(Clauses),
-    peer_do(a, agent_create(clauses(Clauses), Id,
-                            [host(a), facts([to(B)|Facts])])),
+    peer_agent(a, Clauses, [to(B)|Facts], Id),
     wait_until(peer_do(a, agent_property(Id, state(waiting))), 10),
     peer_signal(b, stop),
     peer_do(a, agent_send(Id, go)),
@@ -129,39 +128,36 @@ test(refusal_raises_at_the_move,
        Error == move_refused(B, Reason) ]) :-
     connected(B,
         ( peer_do(b, host_change(b, Change)),
-          peer_do(a, agent_create(
-              clauses([ (:- agent(mover, [])),
-                        (main :- catch(move(B), error(E, _),
-                                       leave(raised(E)))) ]),
-              _, [host(a)])),
+          peer_agent(a, [ (:- agent(mover, [])),
+                          (main :- catch(move(B), error(E, _),
+                                         leave(raised(E)))) ], [], _),
           raised_on_a(Error) )).
 test(unserializable_agent_raises_at_the_move,
      Error = type_error(mobile_term, _)) :-
     connected(B,
-        ( peer_do(a, agent_create(
-              clauses([ (:- agent(carrier, [])),
-                        (main :- stream_property(S, alias(user_error)),
-                                 catch(go(S), error(E, _),
-                                       ( E = type_error(K, _),
-                                         leave(raised(type_error(K, x))) ))),
-                        (go(S) :- to(B1), move(B1), atom(S)),
-                        to(B) ]), _, [host(a)])),
+        ( peer_agent(a,
+              [ (:- agent(carrier, [])),
+                (main :- stream_property(S, alias(user_error)),
+                         catch(go(S), error(E, _),
+                               ( E = type_error(K, _),
+                                 leave(raised(type_error(K, x))) ))),
+                (go(S) :- to(B1), move(B1), atom(S)),
+                to(B) ], [], _),
           raised_on_a(Error) )).
 test(agent_that_stays_keeps_its_mail,
      [ forall(stays(Change, Held)), Mail == [1,2,3] ]) :-
     connected(B,
         ( peer_do(b, host_change(b, Change)),
-          peer_do(a, agent_create(
-              clauses([ (:- agent(stayer, [state([got/1])])),
-                        (main :- receive(_-go), held(S),
-                                 catch(( move(B), atom(S) ), error(_, _),
-                                       true),
-                                 hear),
-                        (hear :- (   receive(_-M, 0)
-                                 ->  assertz(got(M)), hear
-                                 ;   findall(M, got(M), Ms), leave(mail(Ms))
-                                 )),
-                        Held ]), Id, [host(a)])),
+          peer_agent(a, [ (:- agent(stayer, [state([got/1])])),
+                          (main :- receive(_-go), held(S),
+                                   catch(( move(B), atom(S) ), error(_, _),
+                                         true),
+                                   hear),
+                          (hear :- (   receive(_-M, 0)
+                                   ->  assertz(got(M)), hear
+                                   ;   findall(M, got(M), Ms), leave(mail(Ms))
+                                   )),
+                          Held ], [], Id),
           forall(member(M, [1,2,3,go]), peer_do(a, agent_send(Id, M))),
           wait_until(peer_do(a, remote(a, take(mail(Mail)))), 20) )).
 

@@ -2,7 +2,6 @@
 :- use_module('../../../lib/common').
 :- use_module(library(lists)).
 :- use_module(library(plunit)).
-:- use_module(library(readutil)).
 :- use_module('../../../lib/cutting_proxy').
 :- use_module('../../../lib/peers').
 :- use_module('../../../lib/travellers').
@@ -31,16 +30,15 @@ test(reported_once_to_the_sender_when_the_process_is_dead) :-
 
 noting(Peer, Id) :-
     peer_host(Peer, Host),
-    peer_do(a, agent_create(clauses([ (:- agent(noting, [state([to/1])])),
-                                      (main :- to(To), go(To)),
-                                      (go(To) :-
-                                           catch(move(To),
-                                                 error(host_unreachable(_), _),
-                                                 go(To))),
-                                      (on_message(_, go(To)) :- move(To)),
-                                      (on_message(_, n(N)) :- leave(noted(N)))
-                                    ]),
-                            Id, [facts([to(Host)])])),
+    peer_agent(a, [ (:- agent(noting, [state([to/1])])),
+                    (main :- to(To), go(To)),
+                    (go(To) :-
+                         catch(move(To),
+                               error(host_unreachable(_), _),
+                               go(To))),
+                    (on_message(_, go(To)) :- move(To)),
+                    (on_message(_, n(N)) :- leave(noted(N)))
+                  ], [to(Host)], Id),
     wait_until(peer_do(Peer, agent_here(Id)), 30),
     wait_until(\+ peer_do(a, agent_here(Id)), 30).
 

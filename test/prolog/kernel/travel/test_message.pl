@@ -2,7 +2,6 @@
 :- use_module(library(plunit)).
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/fixtures').
-:- use_module(library(aggregate)).
 :- use_module(library(apply)).
 :- use_module(library(lists)).
 :- use_module(library(typhon)).

@@ -59,9 +59,9 @@ end(Hops, ended(x, done, Hops)).
 
 last_news :-
     peer_host(b, B),
-    peer_do(a, agent_create(clauses([ (:- agent(guest, [])),
-                                      (main :- move(B)),
-                                      on_message(_, _) ]), Id, [])),
+    peer_agent(a, [ (:- agent(guest, [])),
+                    (main :- move(B)),
+                    on_message(_, _) ], [], Id),
     wait_until(peer_do(b, agent_property(Id, state(resident))), 10),
     wait_until(peer_do(b, \+ typhon_news:courier(_)), 10),
     slow_courier,
@@ -118,7 +118,7 @@ act(waits) :-                           % for more, or is gone already
 
 :- begin_tests(news).
 
-%   keeps(-How, -First, -Then, -Kept): of news of an agent, at(Hops) or end(Hops), that
+%   keeps(-How, -First, -Then, -Kept): of news, at(Hops) or end(Hops), that
 %   are given in this order, or while First is being posted (`under_way`).
 
 keeps(in_order, at(1), at(2), at(2)).

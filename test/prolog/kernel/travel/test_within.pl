@@ -2,7 +2,7 @@
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/texts').
 :- use_module('../../../lib/fixtures').
-:- use_module(library(apply), [include/3, maplist/2, maplist/3]).
+:- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(plunit)).
 :- use_module(library(prolog_wrap), [unwrap_predicate/2, wrap_predicate/4]).
@@ -14,6 +14,16 @@
 
 *Threading*: tests run one at a time.
 */
+
+%   going(+Hosts, +Clauses, -Agent, :Goal): Goal is called when Agent, which is
+%   created on the first of Hosts, has no goals left.
+
+:- meta_predicate going(+, +, -, 0).
+
+going(Hosts, Clauses, Agent, Goal) :-
+    with_hosts(Hosts, ( create([on_message(_, _)|Clauses], Agent),
+                        wait_state(Agent, resident),
+                        call(Goal) )).
 
 :- begin_tests(hops_within_a_process).
 
@@ -29,29 +39,19 @@ test(mail_travels_along, true(F == [s(1),s(2),s(3)])) :-
                  wait_state(A, resident),
                  agent_property(A, facts(F)) )).
 test(agent_is_on_one_host_only, true(Loads-In-Out == [0,1]-1-1)) :-
-    with_hosts([alpha,beta],
-               ( create([(main :- move(beta)), on_message(_, _)], A),
-                 wait_state(A, resident),
-                 maplist(load, [alpha,beta], Loads),
-                 host_property(beta, hop_time(in, stats(In, _, _, _))),
-                 host_property(alpha, hop_time(out, stats(Out, _, _, _))) )).
+    going([alpha,beta], [(main :- move(beta))], _,
+          ( maplist(load, [alpha,beta], Loads),
+            host_property(beta, hop_time(in, stats(In, _, _, _))),
+            host_property(alpha, hop_time(out, stats(Out, _, _, _))) )).
 test(refused_agent_takes_no_capacity, true(Loads == [1,0])) :-
-    with_hosts([alpha,beta-[tokens([red])]],
-               ( create([(main :- catch(move(beta), _, true)),
-                         on_message(_, _)], A),
-                 wait_state(A, resident),
-                 maplist(load, [alpha,beta], Loads) )).
+    going([alpha,beta-[tokens([red])]], [(main :- catch(move(beta), _, true))],
+          _, maplist(load, [alpha,beta], Loads)).
 test(refusal_after_the_hop_delay_is_an_error_of_the_move,
-     F-Warnings == [s(move_refused(Beta, capacity))]-[]) :-
-    with_hosts([ alpha-[hop_time(uniform(0.01, 0.02))], beta-[capacity(0)] ],
-               ( address(beta, Beta),
-                 capturing(( create([ ( main :-
-                                            catch(move(beta), error(E, _),
-                                                  assertz(s(E))) ),
-                                      on_message(_, _) ], A),
-                             wait_state(A, resident) ),
-                           Warnings),
-                 agent_property(A, facts(F)) )).
+     true(F-Warnings = [s(move_refused(_, capacity))]-[])) :-
+    capturing(going([ alpha-[hop_time(uniform(0.01, 0.02))],
+                      beta-[capacity(0)] ],
+                    [ (main :- catch(move(beta), error(E, _), assertz(s(E)))) ],
+                    A, facts(A, F)), Warnings).
 test(orders_reach_the_agent_on_any_host, true(Loads == [0,0,0])) :-
     with_hosts([alpha,beta,gamma],
                ( findall(A, ( between(1, 30, _), walker(A) ), Agents),
@@ -66,52 +66,38 @@ test(orders_reach_the_agent_on_any_host, true(Loads == [0,0,0])) :-
 test(services_are_those_of_the_new_place, true(F == [s(a),s(b)])) :-
     lamp(within_a, a),
     lamp(within_b, b),
-    with_hosts([ alpha-[services([within_a])], beta-[services([within_b])] ],
-               ( create([ (main :- assertz((look(X) :- light(X))), see,
-                                   move(beta), see),
-                          (see :- forall(look(X), assertz(s(X)))),
-                          on_message(_, _) ], A),
-                 wait_state(A, resident),
-                 agent_property(A, facts(F0)),
-                 include([s(_)]>>true, F0, F) )).
+    going([ alpha-[services([within_a])], beta-[services([within_b])] ],
+          [ (main :- assertz((look(X) :- light(X))), see, move(beta), see),
+            (see :- forall(look(X), assertz(s(X)))) ],
+          A, findall(s(X), fact_of(A, s(X)), F)).
 test(place_facts_do_not_travel, true(At == beta)) :-
     with_tmp_dir(device(At)).
 test(arrival_is_visible_at_once, true(Answer == answer(true))) :-
-    with_hosts([alpha,beta],
-               ( create([(main :- move(beta)), on_message(_, _)], A),
-                 wait_state(A, resident),
-                 reached_as_it_goes(A, Answer) )).
+    going([alpha,beta], [(main :- move(beta))], A,
+          reached_as_it_goes(A, Answer)).
 test(static_predicate_stays_behind, true(F == [s(gone)])) :-
-    with_hosts([alpha,beta],
-               ( create([ (main :- assertz(kept(1)),
-                                   compile_predicates([kept/1]), move(beta),
-                                   catch(kept(_), _, assertz(s(gone)))),
-                          on_message(_, _) ], A),
-                 wait_state(A, resident),
-                 agent_property(A, facts(F)) )).
+    going([alpha,beta],
+          [ (main :- assertz(kept(1)), compile_predicates([kept/1]),
+                     move(beta), catch(kept(_), _, assertz(s(gone)))) ],
+          A, facts(A, F)).
 test(order_that_cannot_be_executed, true(At-Ended == alpha-disposed)) :-
-    with_hosts([alpha-[hop_time(uniform(0.01, 0.02))],beta],
-               ( create([ (main :- current_output(S), assertz(s(S))),
-                          on_message(_, _) ], A),
-                 wait_state(A, resident),
-                 Told = typhon(order_failed(A, _)),
-                 capturing(( agent_move(A, beta),
-                             wait_until(was_printed(warning, Told), 5) ), _),
-                 wait_state(A, resident),
-                 stands(A, At),
-                 agent_dispose(A),
-                 joined(A, Ended) )).
+    going([alpha-[hop_time(uniform(0.01, 0.02))],beta],
+          [ (main :- current_output(S), assertz(s(S))) ], A,
+          ( Told = typhon(order_failed(A, _)),
+            capturing(( agent_move(A, beta),
+                        wait_until(was_printed(warning, Told), 5) ), _),
+            wait_state(A, resident),
+            stands(A, At),
+            agent_dispose(A),
+            joined(A, Ended) )).
 
 device(At, Dir) :-
     atom_concat(Dir, '/place.pl', File),
     write_file(File, ':- dynamic device/1.~n\c
   :- current_output(S), assertz(device(S)).~n', []),
-    with_hosts([alpha-[consult(File)],beta-[consult(File)]],
-               ( create([ (main :- assertz((look(ok) :- device(_))), look(_),
-                                   move(beta)),
-                          on_message(_, _) ], A),
-                 wait_state(A, resident),
-                 stands(A, At) )).
+    going([alpha-[consult(File)],beta-[consult(File)]],
+          [ (main :- assertz((look(ok) :- device(_))), look(_), move(beta)) ],
+          A, stands(A, At)).
 
 :- end_tests(hops_within_a_process).
 
