@@ -1,5 +1,6 @@
 :- module(random_programs,
           [ random_program/1,           % -Clauses
+            program_installed/3,        % +Clauses, -Module, -Initial
             engines_differ/2            % +Clauses, -Difference
           ]).
 :- use_module(library(apply), [maplist/2]).
@@ -167,15 +168,22 @@ tests(Count, X, (Test,Tests)) :-
                 *            ENGINES           *
                 *******************************/
 
+%!  program_installed(+Clauses, -Module, -Initial) is det.
+%
+%   The program of Clauses is in Module; an agent begins with the state Initial.
+
+program_installed(Clauses, Module, Initial) :-
+    program_load(clauses(Clauses), Program, Initial, Hash, Kinds, _),
+    code_install(Hash, Program, Kinds),
+    code_module(Hash, Module).
+
 %!  engines_differ(+Clauses, -Difference) is semidet.
 %
 %   Difference is differs(Engine, Log, Reference), where Log is all that can be
 %   seen of a run.
 
 engines_differ(Clauses, differs(Engine, Log, Reference)) :-
-    program_load(clauses(Clauses), Program, Initial, Hash, Kinds, _),
-    code_install(Hash, Program, Kinds),
-    code_module(Hash, Module),
+    program_installed(Clauses, Module, Initial),
     run_log(machine, Module, Initial, Reference),
     member(Engine, [chunks, frames, mixed, mixed_frames]),
     run_log(Engine, Module, Initial, Log),

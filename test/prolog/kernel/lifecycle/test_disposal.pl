@@ -99,12 +99,12 @@ test(disposal_in_a_cleanup_handler, Ms == [warning-typhon(runs_on(A, 0.3))]) :-
                                                   agent_dispose(A)), Ms),
                      agent_dispose(A, [force(0)]) )).
 test(disposing_agent_does_not_wait, Ms == []) :-
-    disposing(600, ( start(loops, A),
-                     capturing(( create([ (main :- s(X),
-                                                   typhon:agent_dispose(X)) ],
-                                        B, [facts([s(A)])]),
-                                 joined(B, done) ), Ms),
-                     agent_dispose(A, [force(0)]) )).
+    disposing(60, ( start(loops, A),
+                    capturing(( create([ (main :- s(X),
+                                                  typhon:agent_dispose(X)) ],
+                                       B, [facts([s(A)])]),
+                                joined(B, done) ), Ms),
+                    agent_dispose(A, [force(0)]) )).
 test(agent_that_disposes_of_itself, Ms == []) :-
     with_hosts([alpha],
                capturing(( create([ (main :- self(X), typhon:agent_dispose(X),

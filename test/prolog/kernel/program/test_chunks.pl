@@ -6,8 +6,8 @@
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(pairs), [pairs_keys_values/3]).
 :- use_module(library(typhon/kernel/program),
-              [ code_clear/0, code_install/3, code_module/2, fault/3,
-                goals_body/2, machine_run/3, plain_goals/2, program_load/6 ]).
+              [ code_clear/0, fault/3, goals_body/2, machine_run/3,
+                plain_goals/2 ]).
 
 /** <module> Tests of typhon_chunks: compiled programs run as in the machine
 
@@ -135,27 +135,21 @@ test(failure_inside_catch_is_reported_with_long_goals, Goal == (\+ n(1))) :-
                 (p(X) :- \+ n(X), move(a), Body),
                 n(1) ],
     assertion(\+ engines_differ(Clauses, _)),
-    program_load(clauses(Clauses), Program, _, Hash, Kinds, _),
-    code_install(Hash, Program, Kinds),
-    code_module(Hash, Module),
+    installed(Clauses, Module),
     next(Module, [main], Outcome),
     fault(Outcome, [main], fault(Goal, _, _)).
 
 test(stop_in_a_negation_faults_the_negation, Goals =@= [\+ r(_),\+ r(_)]) :-
     Clauses = [ (:- agent(negation, [state([r/1])])),
                 (main :- \+ r(_), move(a)) ],
-    program_load(clauses(Clauses), Program, _, Hash, Kinds, _),
-    code_install(Hash, Program, Kinds),
-    code_module(Hash, Module),
-    nb_setval(random_program, Module),
+    installed(Clauses, Module),
     set_module(negation_agent:base(Module)),
     dynamic(negation_agent:r/1),
     retractall(negation_agent:r(_)),
     assertz(negation_agent:(r(_) :- move(b))),
     findall(Goal,
             ( member(Engine, [Module,reference_machine]),
-              machine_run(context(Engine, negation_agent), [main], Outcome),
-              fault(Outcome, [main], fault(Goal, _, _))
+              faulty(Engine, negation_agent, Goal, _)
             ),
             Goals).
 
@@ -170,12 +164,8 @@ test(long_failed_goal_is_named_at_a_choice,
                           (main :- a(X, L), n(X), move(L)),
                           (a(1, Long)), (a(2, _) :- fail),
                           n(5) ],
-              program_load(clauses(Clauses), Program, _, Hash, Kinds, _),
-              code_install(Hash, Program, Kinds),
-              code_module(Hash, Module),
-              nb_setval(random_program, Module),
-              machine_run(context(Engine, Module), [main], Outcome),
-              fault(Outcome, [main], fault(Goal, Goals, _)),
+              installed(Clauses, Module),
+              faulty(Engine, Module, Goal, Goals),
               length(Goals, Count)
             ),
             Faults),
@@ -191,14 +181,10 @@ test(fault_survives_garbage_collection,
                 (main :- Main, move(a)),
                 (q(2) :- garbage_collect, atom_length(_, _)),
                 t(_) ],
-    program_load(clauses(Clauses), Program, _, Hash, Kinds, _),
-    code_install(Hash, Program, Kinds),
-    code_module(Hash, Module),
-    nb_setval(random_program, Module),
+    installed(Clauses, Module),
     findall(Goal,
             ( member(Engine, [Module,reference_machine]),
-              machine_run(context(Engine, Module), [main], Outcome),
-              fault(Outcome, [main], fault(Goal, _, _))
+              faulty(Engine, Module, Goal, _)
             ),
             Goals).
 
@@ -208,9 +194,7 @@ test(fault_survives_garbage_collection,
 test(frames_are_looked_up_while_the_first_is_added, Outcome == done) :-
     Clauses = [ (:- agent(adding, [])),
                 (main :- move(a), X = f(_), functor(X, _, _), atom(a)) ],
-    program_load(clauses(Clauses), Program, _, Hash, Kinds, _),
-    code_install(Hash, Program, Kinds),
-    code_module(Hash, Module),
+    installed(Clauses, Module),
     set_module(chunks_agent:base(Module)),
     machine_run(context(Module, chunks_agent), [main], effect(_, true, Frames)),
     thread_self(Me),
@@ -236,9 +220,7 @@ nested(N, ( (t(N),Nested -> true ; fail) -> t(N) ; t(0) )) :-
 %   stopped(+Clauses, -Module, -Goals): the goals left at the first stop.
 
 stopped(Clauses, Module, Goals) :-
-    program_load(clauses(Clauses), Program, _, Hash, Kinds, _),
-    code_install(Hash, Program, Kinds),
-    code_module(Hash, Module),
+    installed(Clauses, Module),
     set_module(chunks_agent:base(Module)),
     next(Module, [main], effect(_, true, Goals)).
 
@@ -249,6 +231,17 @@ next(Module, Goals, Outcome) :-
         Outcome = effect(Control, Hole, Left)
     ;   Outcome = Outcome0
     ).
+
+installed(Clauses, Module) :-
+    program_installed(Clauses, Module, _),
+    nb_setval(random_program, Module).
+
+%   faulty(+Program, +Agent, -Goal, -Goals): main/0 of Agent fails or raises in
+%   Goal, the first of Goals.
+
+faulty(Program, Agent, Goal, Goals) :-
+    machine_run(context(Program, Agent), [main], Outcome),
+    fault(Outcome, [main], fault(Goal, Goals, _)).
 
 framed(Module, Goals) :-
     frame_of(Module, Goals, _, _).
@@ -262,9 +255,7 @@ frame_of(Module, Goals, Frame, Rest) :-
 %   the goals of the frame that is made of Goals.
 
 program_frames(Clauses, Frames) :-
-    program_load(clauses(Clauses), Program, _, Hash, Kinds, _),
-    code_install(Hash, Program, Kinds),
-    code_module(Hash, Module),
+    installed(Clauses, Module),
     findall('$k'(Place, Vars)-Goals-Again,
             ( clause(Module:'$goals'(Place, Vars, Goals, []), true),
               numbervars(Vars, 0, _),

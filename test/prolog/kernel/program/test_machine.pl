@@ -4,9 +4,8 @@
 :- use_module(library(apply)).
 :- use_module(library(lists)).
 :- use_module(library(random)).
-:- use_module(library(typhon/kernel/program),
-              [ code_clear/0, code_install/3, code_module/2, machine_run/3,
-                program_load/6 ]).
+:- use_module('../../../lib/random_programs', [program_installed/3]).
+:- use_module(library(typhon/kernel/program), [code_clear/0, machine_run/3]).
 :- use_module(library(typhon/kernel/base/text), [term_text/2, text_term/2]).
 
 /** <module> Tests of typhon_machine: agents stop and continue anywhere
@@ -25,10 +24,8 @@ module, as on another host.
 %   t(X) in a program adds X to the trace.
 
 travel(Terms, Reply, Outcome, Trace, Stops) :-
-    program_load(clauses([(:- agent(test, [state([t_/1,n/1,rule/1])]))|Terms]),
-                 Program, Initial, Hash, Kinds, _),
-    code_install(Hash, Program, Kinds),
-    code_module(Hash, Module),
+    program_installed([(:- agent(test, [state([t_/1,n/1,rule/1])]))|Terms],
+                      Module, Initial),
     fresh(Module, Initial, Agent),
     journey(Agent, Module, [main], Reply, 0, Stops, Outcome, Final),
     findall(X, Final:t_(X), Trace),
@@ -184,21 +181,17 @@ test(a_timeout_is_a_failure_in_a_condition, T == [late]) :-
     run([(main :- ( receive(_, 1) -> t(got) ; t(late) ))], refuse, _, T).
 test(goals_are_source_goals,
      Goals =@= [(_->writeln(x);true), (a, ! ; b), !, main]) :-
-    program_load(clauses([(:- agent(g)),
-                          (main :- ( sleep(1) -> writeln(x) ; true ),
-                                   ( a, ! ; b ), !, main)]), P, _, H, Kinds, _),
-    code_install(H, P, Kinds),
-    code_module(H, M),
+    program_installed([ (:- agent(g)),
+                        (main :- ( sleep(1) -> writeln(x) ; true ),
+                                 ( a, ! ; b ), !, main) ], M, _),
     machine_run(context(M, M), [main], effect(sleep(1), _, Goals)).
 test(tail_recursion_uses_constant_space, O-N-L == done-100000-2) :-
-    program_load(clauses([(:- agent(g, [state([n/1])])),
-                          (main :- n(0), !),
-                          (main :- retract(n(N)), N1 is N-1, assertz(n(N1)),
-                                   move(there), main),
-                          n(100000)]), P, [Fact], H, Kinds, _),
-    code_install(H, P, Kinds),
-    code_module(H, M),
-    fresh(M, [Fact], A),
+    program_installed([ (:- agent(g, [state([n/1])])),
+                        (main :- n(0), !),
+                        (main :- retract(n(N)), N1 is N-1, assertz(n(N1)),
+                                 move(there), main),
+                        n(100000) ], M, Initial),
+    fresh(M, Initial, A),
     hops(M, A, [main], 0, N, 0, L, O).
 
 hops(M, A, Goals0, N0, N, L0, L, O) :-

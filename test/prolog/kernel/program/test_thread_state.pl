@@ -1,12 +1,12 @@
 :- module(test_thread_state, []).
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/fixtures').
+:- use_module('../../../lib/random_programs', [program_installed/3]).
 :- use_module(library(gensym)).
 :- use_module(library(lists)).
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/kernel/program),
-              [code_install/3, code_module/2, machine_run/3, program_load/6]).
+:- use_module(library(typhon/kernel/program), [machine_run/3]).
 
 /** <module> What agents change in their thread, and what they may not change
 
@@ -17,10 +17,8 @@
 %   stop to stop.
 
 outcome(Clauses, Outcome) :-
-    program_load(clauses([(:- agent(test, [state([later/0])]))|Clauses]),
-                 Program, _, Hash, Kinds, _),
-    code_install(Hash, Program, Kinds),
-    code_module(Hash, Module),
+    program_installed([(:- agent(test, [state([later/0])]))|Clauses], Module,
+                      _),
     gensym('test agent ', Agent),
     setup_call_cleanup(
         ( set_module(Agent:class(temporary)),
