@@ -6,6 +6,7 @@
 */
 
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/endpoints', [with_endpoint/1]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [max_list/2]).
 :- use_module(library(plunit)).
@@ -23,11 +24,8 @@ noting(Goal) :-
     retractall(tried(_, _)),
     wrap_predicate(typhon_attempts:try(Address, _, _), noted, Try,
                    ( test_attempts:note(Address), Try )),
-    call_cleanup(
-        no_leaks(setup_call_cleanup(endpoint_start(localhost, 0, [], _),
-                                    once(Goal),
-                                    endpoint_stop)),
-        unwrap_predicate(typhon_attempts:try/3, noted)).
+    call_cleanup(with_endpoint(Goal),
+                 unwrap_predicate(typhon_attempts:try/3, noted)).
 
 note(Address) :-
     aggregate_all(count, typhon_attempts:young(_), Count),

@@ -196,15 +196,8 @@ test(counts_wrap_around, true(Ahead-Counts == 5-counts(1, 0))) :-
     Before is 0xffffffff-3,
     Now is 0xffffffff+2,
     count_ahead(Before, Now, Ahead),
-    with_file(File,
-              ( setup_call_cleanup(
-                    open(File, write, Out, [type(binary)]),
-                    frame_write(Out, counts(0x100000001, 0x300000000), "x"),
-                    close(Out)),
-                setup_call_cleanup(
-                    open(File, read, In, [type(binary)]),
-                    frame_read(In, 10, Counts, "x"),
-                    close(In)) )).
+    with_file(write_frames(["x"], counts(0x100000001, 0x300000000)),
+              read_frame(10, Counts, "x")).
 test(lower_count_is_not_ahead, fail) :-
     count_ahead(10, 9, _).
 
@@ -284,15 +277,19 @@ flag_or(Flag, Default, Value) :-
     ).
 
 framed(List, Bytes) :-
-    with_file(File,
-              ( setup_call_cleanup(
-                    open(File, write, Out, [type(binary)]),
-                    forall(member(B, List), frame_write(Out, counts(7, 5), B)),
-                    close(Out)),
-                setup_call_cleanup(
-                    open(File, read, In, [type(binary)]),
-                    read_string(In, _, Bytes),
-                    close(In)) )).
+    with_file(write_frames(List, counts(7, 5)), read_all(Bytes)).
+
+write_frames(List, Counts, Out) :-
+    forall(member(Bytes, List), frame_write(Out, Counts, Bytes)).
+
+read_frame(Max, Counts, Frame, In) :-
+    frame_read(In, Max, Counts, Frame).
+
+read_all(Bytes, In) :-
+    read_string(In, _, Bytes).
+
+write_all(Bytes, Out) :-
+    write(Out, Bytes).
 
 read_frames(Bytes, Max, Count, Frames) :-
     length(Frames, Count),
@@ -301,15 +298,7 @@ read_frames(Bytes, Max, Count, Frames) :-
 :- meta_predicate with_bytes(+, 1).
 
 with_bytes(Bytes, Goal) :-
-    with_file(File,
-              ( setup_call_cleanup(
-                    open(File, write, Out, [type(binary)]),
-                    write(Out, Bytes),
-                    close(Out)),
-                setup_call_cleanup(
-                    open(File, read, In, [type(binary)]),
-                    call(Goal, In),
-                    close(In)) )).
+    with_file(write_all(Bytes), Goal).
 
 read_each([], _, _).
 read_each([Frame|Frames], Max, In) :-
@@ -321,13 +310,20 @@ second_frame(Frame, In) :-
     catch(frame_read(In, 100, _, _), error(syntax_error(_), _), true),
     frame_read(In, 100, _, Frame).
 
-:- meta_predicate with_file(-, 0).
+%   with_file(:Write, :Read): both are called with a stream of the same bytes.
 
-with_file(File, Goal) :-
+:- meta_predicate with_file(1, 1), opened(+, +, 1).
+
+with_file(Write, Read) :-
     setup_call_cleanup(
         tmp_file(frame, File),
-        Goal,
+        ( opened(File, write, Write), opened(File, read, Read) ),
         delete_file(File)).
+
+opened(File, Mode, Goal) :-
+    setup_call_cleanup(open(File, Mode, Stream, [type(binary)]),
+                       call(Goal, Stream),
+                       close(Stream)).
 
 all_bytes(Bytes) :-
     numlist(0, 255, Codes),

@@ -67,8 +67,7 @@ with_silent(Count, Clients, Goal) :-
                        maplist(closed, Clients)).
 
 shouts(Text) :-
-    setup_call_cleanup(connected(Client), say(Text, Client),
-                       closed(Client)).
+    with_client(In, Out, say(Text, streams(In, Out))).
 
 %   The log reports so many refusals for this reason.
 
@@ -85,14 +84,9 @@ turned_away(Why, Count) :-
 %   Authenticate to the endpoint; Seconds is the time it takes.
 
 newcomer(I, Seconds) :-
-    get_time(T0),
     atom_concat(newcomer, I, Process),
-    setup_call_cleanup(connected(Client),
-                       ( Client = streams(In, Out),
-                         client_authenticate(In, Out, Process) ),
-                       closed(Client)),
-    get_time(T1),
-    Seconds is T1-T0.
+    elapsed(with_client(In, Out, client_authenticate(In, Out, Process)),
+            Seconds).
 
 slots(Count) :-
     aggregate_all(count, typhon_acceptor:unproved(_, _, _, _), Count).
@@ -143,15 +137,18 @@ crowded(Silent) :-
 
 :- begin_tests(order_of_eviction, [cleanup(forget_all)]).
 
-test(client_of_the_address_with_most_connections_is_evicted, V == c) :-
-    slots([a-x-1-silent, b-x-2-heard, c-y-3-silent, d-y-4-silent,
-           e-y-5-heard], [], V).
-test(silent_client_is_evicted, V == b) :-
-    slots([a-x-1-heard, b-x-2-silent, c-x-3-silent], [], V).
-test(oldest_client_is_evicted, V == b) :-
-    slots([a-x-2-heard, b-x-1-heard], [], V).
-test(address_with_an_authenticated_peer_is_spared, V == d) :-
-    slots([a-x-1-silent, b-x-2-silent, c-x-3-silent, d-y-4-heard], [x], V).
+%   evicted(-Slots, -Proved, -Client): Client of these
+%   Client-Address-Since-Stage is evicted, if peers at the addresses Proved have
+%   authenticated.
+
+evicted([a-x-1-silent,b-x-2-heard,c-y-3-silent,d-y-4-silent,e-y-5-heard], [],
+        c).                             % from most connections
+evicted([a-x-1-heard,b-x-2-silent,c-x-3-silent], [], b).    % silent
+evicted([a-x-2-heard,b-x-1-heard], [], b).                  % the oldest
+evicted([a-x-1-silent,b-x-2-silent,c-x-3-silent,d-y-4-heard], [x], d).
+
+test(evicted, [ forall(evicted(Slots, Proved, Expected)), V == Expected ]) :-
+    slots(Slots, Proved, V).
 test(addresses_are_bounded, Count == 256) :-
     forget_all,
     forall(between(1, 1000, I), typhon_acceptor:remember(I)),
@@ -174,27 +171,24 @@ forget_all :-
 :- begin_tests(slots_are_freed).
 
 test(thread_creation_fails) :-
-    no_leaks(fresh(
-        ( setup_call_cleanup(
-              wrap_predicate(typhon_threads:create(_, _, _, _), none, _,
-                             throw(error(resource_error(threads), _))),
-              ( forall(between(1, 3, _), shouts("typhon")),
-                wait_until(turned_away(resource_error(threads), 3), 30) ),
-              unwrap_predicate(typhon_threads:create/4, none)),
-          assertion(slots(0)),
-          newcomer(x, _) ))).
+    fresh(( setup_call_cleanup(
+                wrap_predicate(typhon_threads:create(_, _, _, _), none, _,
+                               throw(error(resource_error(threads), _))),
+                ( forall(between(1, 3, _), shouts("typhon")),
+                  wait_until(turned_away(resource_error(threads), 3), 30) ),
+                unwrap_predicate(typhon_threads:create/4, none)),
+            assertion(slots(0)),
+            newcomer(x, _) )).
 test(clients_die_at_any_moment) :-
-    no_leaks(fresh(
-        ( forall(between(1, 300, I), dies(I)),
-          wait_until(slots(0), 30),
-          newcomer(x, _) ))).
+    fresh(( forall(between(1, 300, I), dies(I)),
+            wait_until(slots(0), 30),
+            newcomer(x, _) )).
 test(threads_are_stopped_at_any_moment) :-
-    no_leaks(forall(between(1, 20, _),
-                    fresh(forall(between(1, 15, I), dies(I))))).
+    forall(between(1, 20, _), fresh(forall(between(1, 15, I), dies(I)))).
 test(clients_are_evicted_at_any_moment) :-
-    no_leaks(fresh(with_settings([typhon_acceptor:unproved=2],
-        ( forall(between(1, 300, I), dies(I)),
-          wait_until(slots(0), 30) )))).
+    fresh(with_settings([typhon_acceptor:unproved=2],
+                        ( forall(between(1, 300, I), dies(I)),
+                          wait_until(slots(0), 30) ))).
 
 %   Sends a greeting of so many bytes, and disconnects.
 
@@ -204,9 +198,7 @@ dies(I) :-
     string_length(Greeting, Length),
     Bytes is I mod (Length+1),
     sub_string(Greeting, 0, Bytes, _, Text),
-    setup_call_cleanup(connected(Client),
-                       say(Text, Client),
-                       closed(Client)).
+    shouts(Text).
 
 :- end_tests(slots_are_freed).
 
@@ -215,21 +207,16 @@ dies(I) :-
 
 breaks_off(Text, Level, Formal) :-
     retractall(broken(_, _)),
-    fresh(
-        ( setup_call_cleanup(
-              connected(Client),
-              ( Client = streams(In, Out),
-                client_authenticate(In, Out, breaker),
-                say(Text, Client) ),
-              closed(Client)),
-          wait_until(broken(Level, Formal), 30) )).
+    fresh(( with_client(In, Out, ( client_authenticate(In, Out, breaker),
+                                   say(Text, streams(In, Out)) )),
+            wait_until(broken(Level, Formal), 30) )).
 
 :- begin_tests(refused_clients_are_reported).
 
 test(few_lines_count_all_refusals, Sum == 500) :-
     get_time(T0),
     fresh(( forall(between(1, 500, _), shouts("GET / HTTP/1.0\r\n")),
-                    wait_until(counted(500), 30) )),
+            wait_until(counted(500), 30) )),
     get_time(T1),
     counted(Sum),
     aggregate_all(count, told(_), Lines),
@@ -240,13 +227,12 @@ test(refusal_with_a_reused_slot_is_reported_once, Sum == 50) :-
                        ( Counted, sleep(0.01) )),
         with_settings([typhon_acceptor:unproved=2],
                       fresh(( forall(between(1, 50, _), shouts("typhon\n")),
-                                      wait_until(( noted_so_far(N), N >= 50 ),
-                                                 30) ))),
+                              wait_until(( noted_so_far(N), N >= 50 ), 30) ))),
         unwrap_predicate(typhon_acceptor:refused/2, slow)),
     noted_so_far(Sum).
 test(refusals_are_reported_at_the_end, Sum == 20) :-
     fresh(( forall(between(1, 20, _), shouts("\n")),
-                    wait_until(noted(20), 30) )),
+            wait_until(noted(20), 30) )),
     counted(Sum).
 test(last_refusals_are_reported, Sum == 20) :-
     setup_call_cleanup(
@@ -257,18 +243,17 @@ test(last_refusals_are_reported, Sum == 20) :-
         fresh(true),
         unwrap_predicate(typhon_threads:wire_threads_end/0, last)),
     counted(Sum).
-test(violation_by_an_authenticated_client, Level == warning) :-
-    breaks_off("resume 0\nno frame, but words", Level, _).
-test(authenticated_client_disconnects_within_a_frame, Level == silent) :-
-    breaks_off("resume 0\nabc", Level, _).
+test(broken_connection,
+     [ forall(member(Text-Expected,
+                     [ "resume 0\nno frame, but words"-warning,
+                       "resume 0\nabc"-silent ])),     % within a frame
+       Level == Expected ]) :-
+    breaks_off(Text, Level, _).
 test(client_of_another_version, Line == "typhon 3") :-
-    fresh(setup_call_cleanup(
-        connected(Client),
-        ( say("typhon 1 00 p 1 a:1 90004 64 little\n", Client),
-          arg(1, Client, In),
+    fresh(with_client(In, Out,
+        ( say("typhon 1 00 p 1 a:1 90004 64 little\n", streams(In, Out)),
           read_line_to_string(In, Line),
-          wait_until(told(turned_away(_, version(1))), 30) ),
-        closed(Client))).
+          wait_until(told(turned_away(_, version(1))), 30) ))).
 test(server_of_another_version,
      [error(permission_error(authenticate, peer, version(3)))]) :-
     typhon_handshake:check_protocol("typhon 3").
