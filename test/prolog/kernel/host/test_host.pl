@@ -479,9 +479,6 @@ offered(Exported, Hidden) :-
     functor(Exported, Name, Arity),
     test_place:export(test_place:Name/Arity).
 
-test(place_is_a_module_while_the_host_runs) :-
-    with_hosts([alpha], ( host_property(alpha, place(M)),
-                          assertion(current_module(M)) )).
 test(refused_payload_changes_nothing,
      true(Ps-Es == [1]-[permission_error(modify, static_procedure, write/1),
                         type_error(callable, 1)])) :-
@@ -804,10 +801,6 @@ test(stop_while_agents_come_and_go) :-
                                catch(agent_dispose(A),
                                      error(existence_error(_, _), _), true)),
                         maplist(joined, As, _) ))).
-test(host_stop_in_a_cleanup_handler) :-
-    no_leaks(setup_call_cleanup(host_start(alpha),
-                                stays([], _),
-                                host_stop(alpha))).
 test(every_thread_has_a_name) :-
     with_hosts([alpha], in_own_thread(\+ nameless(_))).
 

@@ -271,9 +271,6 @@ test(unknown_host_of_this_process, error(existence_error(host, _))) :-
                  atom_concat(alpha, Endpoint, A),
                  atom_concat(nowhere, Endpoint, Nowhere),
                  create([main], _, [host(Nowhere)]) )).
-test(admitted_with_a_token, O == done) :-
-    with_hosts([alpha-[tokens([red,green])]],
-               ( create([main], A, [tokens([blue,green])]), joined(A, O) )).
 test(ids_are_unique, N == 400) :-
     with_hosts([alpha,beta],
                ( concurrent_maplist(plunit_birth:create_100,

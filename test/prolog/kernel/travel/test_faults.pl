@@ -125,8 +125,6 @@ test(agent_that_hopped_on_is_not_duplicated) :-
 test(agent_that_hopped_on_is_not_duplicated_without_its_home,
      forall(( member(Home, [d, b]), member(Steps, [20, 4]) ))) :-
     with_doubt([a, b, c, d], got_away_from(Home, Steps)).
-test(move_to_a_dead_host_raises) :-
-    with_peers([a, b], dead_host).
 
 :- end_tests(killed_peer).
 
@@ -204,14 +202,6 @@ got_away(Home, Steps, Id) :-
     forall(member(Peer, Dead), peer_kill(Peer)),
     forall(member(Peer, Dead), peer_restart(Peer)),
     wait_until(\+ peer_do(a, agent_here(Id)), 20).
-
-dead_host :-
-    peer_host(b, B),
-    travel(a, [B], 1),
-    peer_kill(b),
-    wait_until(\+ peer_do(a, connected_to(B)), 10),
-    peer_do(a, try_move(B, [], Error)),
-    Error == error(host_unreachable(B)).
 
 :- begin_tests(constant_hops).
 

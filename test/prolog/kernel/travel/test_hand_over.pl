@@ -50,16 +50,13 @@ visitor([ (:- agent(visitor, [state([to/1, fact/1, got/1])])),
 :- begin_tests(under_way).
 
 test(properties_under_way,
-     State-Facts-Hops == in_transit-[fact(1),fact(2)]-0) :-
+     State-Facts-Hops-Ids == in_transit-[fact(1),fact(2)]-0-[Id]) :-
     with_under_way([fact(1), fact(2)], Id,
-        ( peer_do(a, agent_property(Id, state(State))),
+        ( peer_do(a, findall(A, agent_property(A, home(_)), Ids)),
+          peer_do(a, agent_property(Id, state(State))),
           peer_do(a, agent_property(Id, facts(All))),
           findall(fact(X), member(fact(X), All), Facts),
           peer_do(a, agent_property(Id, hops(Hops))),
-          goes_on(Id) )).
-test(agent_under_way_is_listed, true(memberchk(Id, Ids))) :-
-    with_under_way([], Id,
-        ( peer_do(a, findall(A, agent_property(A, home(_)), Ids)),
           goes_on(Id) )).
 %   A query thaws the agent.
 
@@ -76,20 +73,6 @@ test(messages_follow_in_order,
                    ( N =:= 10 -> call(Query) ; true ) )),
           peer_signal(b, cont),
           result_of(Id, Result) )).
-test(disposal_follows_the_agent, Outcome == disposed) :-
-    with_under_way([], Id,
-        ( peer_do(a, agent_dispose(Id)),
-          peer_signal(b, cont),
-          wait_until(peer_do(a, agent_join(Id, Outcome, 1)), 20) )).
-test(agent_continues_at_its_source_after_the_peer_died,
-     Error == host_unreachable(B)) :-
-    with_under_way([], Id,
-        ( peer_host(b, B),
-          peer_kill(b),
-          peer_restart(b),
-          wait_until(peer_do(a, remote(a, take(raised(Error)))), 30),
-          peer_do(a, agent_send(Id, end)),
-          wait_until(peer_do(a, agent_join(Id, done, 1)), 20) )).
 test(its_host_is_stopped_during_the_hop) :-
     with_under_way([], Id,
         ( peer_signal(b, cont),

@@ -27,17 +27,6 @@ going(Hosts, Clauses, Agent, Goal) :-
 
 :- begin_tests(hops_within_a_process).
 
-test(mail_travels_along, true(F == [s(1),s(2),s(3)])) :-
-    with_hosts([alpha,beta],
-               ( create([ (main :- receive(_-go), move(beta), move(alpha),
-                                   take(3)),
-                          (take(0) :- !),
-                          (take(N) :- receive(_-M), assertz(s(M)), N1 is N-1,
-                                      take(N1)),
-                          on_message(_, _) ], A),
-                 maplist(agent_send(A), [1,2,3,go]),
-                 wait_state(A, resident),
-                 agent_property(A, facts(F)) )).
 test(agent_is_on_one_host_only, true(Loads-In-Out == [0,1]-1-1)) :-
     going([alpha,beta], [(main :- move(beta))], _,
           ( maplist(load, [alpha,beta], Loads),

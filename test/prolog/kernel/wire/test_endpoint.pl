@@ -190,14 +190,6 @@ hold_once :-
 
 test(call, Answer == foo(1, "two", [3.0])) :-
     fresh(with_peer(A, ask(A, echo, foo(1, "two", [3.0]), Answer))).
-test(posts_arrive_in_order, Notes == Sent) :-
-    numlist(1, 2000, Sent),
-    fresh(with_peer(A, ( post_notes(A, 1, 2000),
-                                 ask(A, notes, x, Notes) ))).
-test(peer_posts_back, Got == Expected) :-
-    numlist(1, 500, Expected),
-    fresh(with_peer(A, ( ask(A, back, 500, done),
-                                 findall(N, note(N), Got) ))).
 test(another_thread_answers_later, Answer == x) :-
     fresh(with_peer(A, ask(A, later, x, Answer))).
 test(answer_after_the_deadline, error(timeout_error(answer, _))) :-
