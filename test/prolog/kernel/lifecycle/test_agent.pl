@@ -303,19 +303,11 @@ test(vocabulary_after_a_move, true(F == [s(B-A-1)])) :-
                  resident([(main :- move(beta), here(H), home(O), hops(N),
                                     assertz(s(H-O-N)))], [], Id),
                  facts(Id, F) )).
-test(only_agents_have_a_self,
-     error(existence_error(running_agent, here))) :-
-    with_hosts([alpha], remote(alpha, self(_))).
 
 :- end_tests(birth).
 
 :- begin_tests(moves).
 
-test(move_by_address, true(H == B)) :-
-    with_hosts([alpha,beta],
-               ( address(beta, B),
-                 resident([(main :- s(X), move(X))], [facts([s(B)])], A),
-                 agent_property(A, host(H)) )).
 test(lifetime, true(O-H == disposed-2)) :-
     with_hosts([alpha,beta],
                ( create([(main :- tour),
@@ -408,14 +400,6 @@ test(mail_is_not_cloned, F == [s(none)]) :-
                  maplist(agent_send(P), [other,go]),
                  wait_until(two_residents(P, C), 10),
                  agent_property(C, facts(F)) )).
-test(clone_of_a_clone, N == 8) :-
-    with_hosts([alpha],
-               ( create([on_message(_, _),
-                         (main :- clone(_), clone(_), clone(_))], _),
-                 wait_until(aggregate_all(count,
-                                          agent_property(_, state(resident)),
-                                          8), 10),
-                 host_property(alpha, load(N)) )).
 test(clone_order_from_outside, true(F1-F2 == [s(1)]-[s(1)])) :-
     with_hosts([alpha],
                ( create([on_message(_, _), s(1)], A),
@@ -423,14 +407,6 @@ test(clone_order_from_outside, true(F1-F2 == [s(1)]-[s(1)])) :-
                  wait_state(C, resident),
                  facts(A, F1),
                  facts(C, F2) )).
-test(clone_order_to_a_waiting_agent, Os == [done,done]) :-
-    with_hosts([alpha],
-               ( create([(main :- receive(_-go))], A),
-                 wait_state(A, waiting),
-                 agent_clone(A, C),
-                 wait_state(C, waiting),
-                 forall(member(X, [A,C]), agent_send(X, go)),
-                 maplist(joined, [A,C], Os) )).
 test(clone_order_is_refused, error(move_refused(_, capacity))) :-
     with_hosts([alpha-[capacity(1)]],
                ( create([on_message(_, _)], A), agent_clone(A, _) )).
@@ -570,14 +546,6 @@ test(faulty_agent_keeps_its_state_and_takes_no_capacity,
                            host_property(alpha, load(0)),
                            agent_property(A, state(S)),
                            agent_property(A, facts([s(1)])) ), M)).
-test(faulty_agent_can_be_disposed_of, O == raised(oops)) :-
-    with_hosts([alpha],
-               capturing(( create([(main :- throw(oops))], A),
-                           joined(A, _),
-                           agent_dispose(A),
-                           gone(A),
-                           joined(A, O),
-                           host_property(alpha, load(0)) ), _)).
 test(faulty_agents_are_bounded) :-
     with_settings([typhon_creation:faulty=3],
         with_hosts([alpha],

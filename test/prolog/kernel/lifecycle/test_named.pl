@@ -137,11 +137,6 @@ test(name_with_dots) :-
     with_hosts([alpha], ( bob(Id, [name('dr.bob')]),
                           agent_property('dr.bob', home(_)),
                           agent_dispose(Id) )).
-test(name_is_not_part_of_an_address, error(domain_error(agent_name, 'a@b'))) :-
-    with_hosts([alpha], bob(_, [name('a@b')])).
-test(id_of_an_ended_agent_has_no_properties) :-
-    with_hosts([alpha], ( bob(Id), agent_dispose(Id), agent_join(Id, _, 5),
-                          \+ agent_property(Id, state(_)) )).
 test(id_is_not_resolved) :-
     with_hosts([alpha],
                ( bob(Id),

@@ -90,12 +90,6 @@ test(invalid_message, true(Wrong == [])) :-
                                  catch(agent_send(To, Message), error(E, _),
                                        true),
                                  \+ subsumes_term(Error, E) ), Wrong) )).
-test(message_to_a_faulty_agent_is_kept, true(M == [user-hello])) :-
-    with_hosts([alpha],
-               capturing(( create([(main :- throw(x))], A),
-                           joined(A, _),
-                           agent_send(A, hello),
-                           agent_property(A, mailbox(M)) ), _)).
 test(message_of_an_agent_to_unknown_agent,
      true(O-M = done-[warning-typhon(undeliverable(_, foo, _, hello))])) :-
     with_hosts([alpha],

@@ -48,9 +48,6 @@ test(existing_tuple_is_not_bound, true(( Xs = [X], var(X) ))) :-
                ( remote(alpha, leave(p(_))),
                  \+ remote(alpha, leave_new(p(1))),
                  remote(alpha, findall(X0, sense(p(X0)), Xs)) )).
-test(each_host_has_its_own_tuple_space) :-
-    with_hosts([alpha,beta],
-               ( remote(alpha, leave_new(p)), remote(beta, leave_new(p)) )).
 test(no_tuple, [ forall(member(Tuple-Error,
                                [ p(user_output)-mobile_term, 3-callable ])),
                  error(type_error(Error, _)) ]) :-
