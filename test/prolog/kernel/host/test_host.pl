@@ -45,7 +45,7 @@ in_turn :-
 began(N) :-
     forall(between(1, N, _),
            thread_get_message(here, here, [timeout(10)])),
-    \+ thread_peek_message(here, here).
+    \+ thread_get_message(here, here, [timeout(0.05)]).
 
 go_on(Agents) :-
     forall(member(_, Agents), thread_send_message(go, go)),
