@@ -10,7 +10,9 @@
 
 :- use_module('../lib/common', [project_file/2]).
 :- use_module(changes, [change_words/3, file_changes/2]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(readutil), [read_file_to_string/3]).
 
 %   equivalent(File, Predicate, Kind, Old, New, Reason): Old and New are the
 %   words of the text before and after.
@@ -21,11 +23,27 @@ equivalent('prolog/typhon/tools/page/overlays.pl', predicate_dict/2, constants,
 
 %!  equivalent_change(+Change, -Reason:string) is semidet.
 
+equivalent_change(Change, "the messages of two terms in another order") :-
+    Change = change(_, _, _, _, order, Name/3, _),
+    memberchk(Name, [error_message, message]),
+    changed_clauses(Change, (Head1 --> _), (Head2 --> _)),
+    Head1 \= Head2.
 equivalent_change(Change, Reason) :-
     Change = change(File, _, _, _, Kind, Predicate, _),
     equivalent(File, Predicate, Kind, _, _, _),
     change_words(Change, Old, New),
     equivalent(File, Predicate, Kind, Old, New, Reason).
+
+changed_clauses(change(File, Start, End, _, order, _, _), First, Second) :-
+    project_file(File, Path),
+    read_file_to_string(Path, Text, [encoding(utf8)]),
+    Length is End-Start,
+    sub_string(Text, Start, Length, _, Clauses0),
+    string_concat(Clauses0, ".", Clauses),
+    setup_call_cleanup(
+        open_string(Clauses, In),
+        maplist(read(In), [First, Second]),
+        close(In)).
 
 %!  outdated_equivalent(-File) is nondet.
 %

@@ -3,7 +3,8 @@
 :- use_module('../lib/texts', [write_file/2]).
 :- use_module('../mutants/changes').
 :- use_module('../mutants/copies', [suite_in_copy/4]).
-:- use_module('../mutants/equivalent', [outdated_equivalent/1]).
+:- use_module('../mutants/equivalent',
+              [equivalent_change/2, outdated_equivalent/1]).
 :- use_module('../promises', [promise/5, promise_problem/1]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(filesex),
@@ -88,6 +89,18 @@ test(suite_that_waits_for_ever_is_ended, Result == killed(hangs)) :-
     with_tmp_dir(waits_for_ever(Result)).
 test(equivalent_changes_are_still_possible, Outdated == []) :-
     findall(File, outdated_equivalent(File), Outdated).
+test(order_of_messages_is_equivalent, Orders == [4,6]) :-
+    with_tmp_dir(Dir,
+        ( directory_file_path(Dir, 'm.pl', File),
+          write_file(File, ":- module(m, []).\n\c
+              prolog:message(a(_)) --> [x].\n% two\n\c
+              prolog:message(b(_)) --> [y].\n\c
+              prolog:message(b(_)) --> [z].\n\c
+              p(a) --> [x].\np(b) --> [y].\n"),
+          file_changes(File, Changes),
+          findall(Line, ( member(Change, Changes),
+                          Change = change(_, _, _, _, order, _, Line),
+                          \+ equivalent_change(Change, _) ), Orders) )).
 test(no_change_leaves_the_program_as_it_was, [fail]) :-
     changed(_, Texts),
     program(Program),
