@@ -101,19 +101,14 @@ is_address(Address) :-
     !.
 
 %   used_overlays(+Rows, +Declared, -Used): Used are the overlays of Declared
-%   with a row.
+%   with a row.  No other row has three arguments.
 
 used_overlays(Rows, Declared, Used) :-
-    findall(Title,
-            ( member([_, _, _, Kind, Title|_], Rows),
-              memberchk(Kind, ["show", "add"]) ),
-            Titles0),
-    sort(Titles0, Titles),
     findall(Overlay,
             ( member(Overlay, Declared),
               arg(1, Overlay, Title),
               name_text(Title, Text),
-              memberchk(Text, Titles) ),
+              memberchk([_, _, _, _, Text, _, _], Rows) ),
             Used).
 
                 /*******************************

@@ -407,25 +407,6 @@ test(many_ends, Kept == [2000, 0, 2000]) :-
 
 :- end_tests(late_events).
 
-:- begin_tests(log_files_of_the_page).
-
-%   A browser sends the text of a log file.
-
-test(log_loaded_by_a_browser) :-
-    Event = event(1.5, 'a@h:1', 'bob.1@a@h:1', created),
-    format(string(Text), '~q.~n', [Event]),
-    with_page([], Base,
-              ask(Base, _{ask:replay, title:"x.log", text:Text}, Told)),
-    Replay = Told.answer,
-    assertion(Replay.title == "x.log"),
-    assertion(Replay.events = [[1.5|_]]),
-    assertion(member("bob.1@a@h:1", Replay.names)).
-test(file_that_is_no_text) :-
-    with_page([], Base, ask(Base, _{ask:replay, title:"x.log"}, Told)),
-    assertion(get_dict(error, Told, _)).
-
-:- end_tests(log_files_of_the_page).
-
 :- begin_tests(page_export, [condition(tools_there)]).
 
 test(no_log, error(existence_error(source_sink, 'no.log'), _)) :-

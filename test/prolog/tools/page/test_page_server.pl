@@ -419,6 +419,24 @@ test(metrics, Said == "") :-
     ;   Said = ""
     ).
 
+%   A browser sends the text of a log file; of the overlays in agents/ those
+%   are listed that its events change.
+
+test(log_of_a_browser, Names == ["clones", "task executed"]) :-
+    findall(Line,
+            ( member(What, [ created, cloned, executing(1, drill), deaths,
+                             leave(deaths) ]),
+              format(string(Line), '~q.~n',
+                     [event(1.5, 'a@h:1', 'bob.1@a@h:1', What)]) ),
+            Lines),
+    atomics_to_string(Lines, Text),
+    page(Base, ( answer(Base, _{ask:replay, title:"x.log", text:Text}, Log),
+                 fails(Base, _{ask:replay, title:"x.log"}, []) )),
+    assertion(_{title:"x.log", events:[[1.5|_]|_]} :< Log),
+    assertion(member("bob.1@a@h:1", Log.names)),
+    findall(Name, ( member(Overlay, Log.overlays), Name = Overlay.name ),
+            Names).
+
 checked_by_promtool(Text, Said) :-
     setup_call_cleanup(
         process_create(path(promtool), [check, metrics],
@@ -481,6 +499,28 @@ test(error_at_the_line_of_the_goal, Lines == [6]) :-
 test(refused_create) :-
     page(Base, fails(Base, _{do:"create", text:"main :- .", host:"alpha"},
                      ["program.pl:1"])).
+
+%   A text is checked also if the message names a program, too.
+
+test(text_before_program, Said-Named == Alone-[]) :-
+    Bad = "main :- nothing_of_this_name(1).",
+    page(Base, ( maplist(check(Base),
+                         [ _{text:Bad},
+                           _{text:Bad, program:"agents(supervisor)"},
+                           _{program:"agents(supervisor)"} ],
+                         [Alone, Said, Named]) )).
+
+check(Base, Message, Said) :-
+    answer(Base, Message.put(do, "check"), Answer),
+    Said = Answer.said.
+
+test(faulty_agent_is_resumed, Outcome == done) :-
+    page(Base, ( capturing(( create([(main :- receive(_-go, 0))], A,
+                                    [host(alpha)]),
+                             joined(A, failed) ), _),
+                 agent_send(A, go),
+                 done(Base, _{do:"resume", agent:A}, _),
+                 joined(A, Outcome) )).
 
 test(move_clone_dispose) :-
     page(Base, ( create([on_message(_, _)], A, [host(alpha)]),
