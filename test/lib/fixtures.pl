@@ -5,6 +5,7 @@
             printed_message/2,          % +Kind, ?Message
             create/2,                   % +Clauses, -Agent
             create/3,                   % +Clauses, -Agent, +Options
+            result_on/3,                % +Specs, +Clauses, -Result
             joined/2,                   % +Agent, -Outcome
             state_of/2,                 % +Agent, ?State
             fact_of/2,                  % +Agent, ?Fact
@@ -114,6 +115,16 @@ create(Clauses, Agent) :-
 create(Clauses, Agent, Options) :-
     agent_create(clauses([(:- agent(test, [state([s/1, r/1])]))|Clauses]),
                  Agent, Options).
+
+%!  result_on(+Specs, +Clauses, -Result) is semidet.
+%
+%   Result is that of an agent of Clauses, on the first of the hosts Specs.
+
+result_on([Spec|Specs], Clauses, Result) :-
+    ( Spec = Host-_ -> true ; Host = Spec ),
+    with_hosts([Spec|Specs],
+               ( create(Clauses, Agent, [host(Host)]),
+                 agent_result(Agent, Result, 20) )).
 
 %!  joined(+Agent, -Outcome) is det.
 %

@@ -4,9 +4,10 @@
 :- use_module('../../../lib/peers').
 :- use_module('../../../lib/cutting_proxy', [proxy_cut/1]).
 :- use_module(library(plunit)).
-:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(thread), [concurrent/3]).
+:- use_module(library(occurs), [sub_term/2]).
+:- use_module(library(yall)).
 :- use_module(library(typhon)).
 
 /** <module> Monitors: an agent gets one message when another ends
@@ -14,375 +15,107 @@
 *Threading*: one test at a time; agent_monitor/2 calls its goals in workers.
 */
 
-%   A monitoring agent stores its messages in s/1, from `system` or others.
+%   A watcher stores its messages from `system`, and executes orders.
 
-watcher(Clauses, [ (on_message(system, M) :- assertz(s(M))),
-                   (on_message(user, monitor(A)) :- monitor(A),
-                                                   assertz(r(A))),
-                   (on_message(user, shared(A)) :-
-                        monitor(A, [shared(true)]), assertz(r(A))),
-                   (on_message(user, unmonitor(A)) :- unmonitor(A),
-                                                      retractall(r(A))),
-                   (on_message(user, move(H)) :- move(H))
-                 | Clauses ]).
+watcher(Id, Options) :-
+    create([ (on_message(system, M) :- assertz(s(M))),
+             (on_message(user, do(N, G)) :- call(G), assertz(r(N))) ],
+           Id, Options).
 
-watcher(Id, Clauses, Options) :-
-    watcher(Clauses, All),
-    create(All, Id, Options).
+order(W, Goal) :-
+    flag(test_monitors_order, N, N+1),
+    agent_send(W, do(N, Goal)),
+    wait_until(fact_of(W, r(N)), 10).
 
-%   monitors(+Watcher, +Agent): the order was executed.
+sleeper(Id, Options) :-
+    create([(main :- receive(_-end(How)), call(How))], Id, Options).
 
 monitors(W, A) :-
-    agent_send(W, monitor(A)),
-    set(W, A).
+    order(W, monitor(A)).
 
-shares(W, A) :-
-    agent_send(W, shared(A)),
-    set(W, A).
-
-set(W, A) :-
-    wait_until(( agent_property(W, facts(Facts)), memberchk(r(A), Facts) ),
-               10).
-
-unmonitors(W, A) :-
-    agent_send(W, unmonitor(A)),
-    wait_until(( agent_property(W, facts(Facts)),
-                 \+ memberchk(r(A), Facts) ), 10).
-
-received(W, Messages) :-
-    agent_property(W, facts(Facts)),
-    findall(M, member(s(M), Facts), Messages).
+ends(A, How) :-
+    agent_send(A, end(How)).
 
 receives(W, Message) :-
-    wait_until(( received(W, Ms), memberchk(Message, Ms) ), 20).
+    wait_until(fact_of(W, s(Message)), 20).
 
-%   No other message has arrived when the report about another agent does,
-%   whose monitor began later.
+%   Earlier reports have arrived.
 
-once_only(W, Message) :-
-    receives(W, Message),
-    receives_other(W, Other),
-    received(W, Ms),
-    Ms == [Message, Other].
-
-receives_other(W, down(B, done)) :-
+in_sync(W) :-
     sleeper(B, []),
     monitors(W, B),
     ends(B, true),
     receives(W, down(B, done)).
 
-sleeper(Id, Options) :-
-    create([(main :- receive(_-end(How)), call(How))], Id, Options).
+                /*******************************
+                *            STORIES           *
+                *******************************/
 
-ends(A, How) :-
-    agent_send(A, end(How)).
+%   story(-Name, -Places, -Steps): what happens to a watcher w, and agents a,
+%   b and c, which begin in this process, if Places names no peer for them.
+%   only(Reports) are all reports about them that w has.
 
-:- begin_tests(monitors).
+story(outcome(How), [], [monitor(a), end(a, How), only([a-Outcome])]) :-
+    member(How-Outcome,
+           [true-done, fail-failed, throw(oops)-raised(oops)]).
+story(disposed, [], [monitor(a), dispose(a), only([a-disposed])]).
+story(monitored_after_its_end, [], [end(a), monitor(a), only([a-done])]).
+story(monitored_twice, [],
+      [monitor(a), monitor(a), end(a), only([a-done])]).
+story(unmonitored, [], [monitor(a), unmonitor(a), end(a), only([])]).
+story(monitored_again, [],
+      [monitor(a), unmonitor(a), monitor(a), end(a), only([a-done])]).
+story(resumed, [],
+      [monitor(a), end(a, s(_)), gets(a, failed), resume(a), only([a-failed])]).
+story(shares_its_end, [], [share(a), dispose(a), ended(w, disposed)]).
+story(shares_the_end_of_its_watcher, [],
+      [share(a), dispose(w), ended(a, disposed)]).
+story(done_ends_no_other, [], [share(a), end(a), only([a-done])]).
+story(follower_gets_no_message, [], [follow(a), end(a), only([])]).
+story(unmonitor_ends_shared_fate, [],
+      [ share(a), unmonitor(a), dispose(a), only([]), state(w, resident),
+        share(b), unmonitor(b), share(c), dispose(w), ended(c, disposed),
+        state(b, waiting) ]).
+story(in_processes(W, A), [w-W, a-A], [monitor(a), end(a), only([a-done])]) :-
+    member(W-A, [here-p1, p1-here, p1-p2, p1-p1]).
+story(both_move, [],
+      [ w/p1, monitor(a), a/p2, w/p2, a/p1, end(a), only([a-done]) ]).
+story(lost_with_its_home, [a-p1, b-p1],
+      [ monitor(a), monitor(b), end(b), gets(b, done), kill(p1),
+        only([b-done, a-lost(p1)]) ]).
+story(away_when_its_home_dies, [a-p1, b-p1],
+      [ link(here, p3), link(p3, p2), monitor(a), a/p2, b/p2, kill(p1),
+        only([a-lost(p1)]), gone_from(p2, a), is_on(p2, b) ]).
+story(lost_in_a_dead_process, [],
+      [monitor(a), a/p1, kill(p1), only([a-lost(p1)])]).
+story(lost_in_a_third_process, [w-p3, a-p1],
+      [monitor(a), a/p2, kill(p2), only([a-lost(p2)])]).
+story(hopped_on, [b-p1],
+      [ monitor(a), monitor(b), a/p1, a/p2, kill(p1), gets(b, lost(p1)),
+        end(a), only([b-lost(p1), a-done]) ]).
+story(restarted_at_the_same_address, [a-p1],
+      [monitor(a), kill(p1), restart(p1), only([a-lost(p1)])]).
+story(orderly_stop, [a-p1], [monitor(a), stop(p1), disposed_or_lost(a, p1)]).
+story(shares_the_end_of_a_process, [w-p1],
+      [ share(a), monitor(b), end(b), gets(b, done), kill(p1),
+        ended(a, disposed) ]).
+story(broken_connection, [a-p1, b-p1],
+      [ monitor(a), cut(p1), monitor(b), end(b), gets(b, done), end(a),
+        only([b-done, a-done]) ]).
 
-test(outcomes_are_reported, [forall(member(How-Outcome,
-                                           [ true-done, fail-failed,
-                                             throw(oops)-raised(oops),
-                                             dispose_now-disposed ]))]) :-
-    with_hosts([alpha],
-               ( watcher(W, [], []),
-                 sleeper(A, []),
-                 monitors(W, A),
-                 (   How == dispose_now
-                 ->  agent_dispose(A)
-                 ;   capturing(( ends(A, How), joined(A, _) ), _)
-                 ),
-                 once_only(W, down(A, Outcome)) )).
-test(monitored_after_its_end) :-
-    with_hosts([alpha],
-               ( watcher(W, [], []),
-                 create([(main :- true)], A),
-                 joined(A, done),
-                 monitors(W, A),
-                 once_only(W, down(A, done)) )).
-test(several_reports_are_one_message) :-
-    with_hosts([alpha],
-               ( watcher(W, [], []),
-                 sleeper(A, []),
-                 monitors(W, A),
-                 findall(typhon_monitors:down(A, done), between(1, 4, _),
-                         Reports),
-                 concurrent(4, Reports, []),
-                 once_only(W, down(A, done)) )).
-test(unknown_agent) :-
-    with_hosts([alpha],
-               ( watcher(W, [], []),
-                 address(alpha, H),
-                 atom_concat('unknown.x.1@', H, A),
-                 monitors(W, A),
-                 once_only(W, down(A, unknown)) )).
-test(invalid_id, F == existence_error(agent, bob)) :-
-    with_hosts([alpha],
-               ( create([ (main :- catch(monitor(bob), error(F0, _), true),
-                                   result(F0)) ], A),
-                 agent_result(A, F, 10) )).
-test(wrong_option, F = domain_error(monitor_option, _)) :-
-    with_hosts([alpha],
-               ( create([ (main :- self(A),
-                                   catch(monitor(A, [hot(true)]), error(F0, _),
-                                         true),
-                                   result(F0)) ], A),
-                 agent_result(A, F, 10) )).
-test(follower_ends_with_its_parent,
-     [ forall(member(How-Outcome, [throw(oops)-disposed, true-done])),
-       Ended == Outcome ]) :-
-    with_hosts([alpha],
-               ( agent_create(clauses([ (:- agent(parent, [state([child/1])])),
-                                        (main :- Child = clauses(
-                                                   [ (:- agent(child, [])),
-                                                     (main :- receive(_-end)) ]),
-                                                 create(Child, C0,
-                                                        [follows(true)]),
-                                                 assertz(child(C0)),
-                                                 receive(_-end(G)), call(G)) ]),
-                              P),
-                 wait_until(agent_property(P, facts([child(C)])), 10),
-                 capturing(( ends(P, How), joined(P, _) ), _),
-                 ( How == true -> agent_send(C, end) ; true ),
-                 joined(C, Ended) )).
-test(follower_that_moves_before_its_first_turn, O == disposed) :-
-    with_hosts([alpha, beta],
-               ( create([ (main :- create(clauses([ (:- agent(c, [])),
-                                                    (on_message(_, _)) ]),
-                                          C0, [follows(true)]),
-                                   assertz(r(C0)), receive(_-_)) ], P),
-                 wait_until(( agent_property(P, facts([r(C)])),
-                              agent_property(C, state(resident)) ), 10),
-                 agent_move(C, beta, [wait(5)]),
-                 agent_dispose(P),
-                 joined(C, O) )).
-test(followers_are_listed, Cs == [C]) :-
-    with_hosts([alpha],
-               ( create([ (main :- Child = clauses([ (:- agent(c, [])),
-                                                     (main :- receive(_)) ]),
-                                   create(Child, _, []),
-                                   create(Child, C0, [follows(true)]),
-                                   followers(Ds),
-                                   result(Ds-C0)) ], P),
-                 agent_result(P, Cs-C, 10) )).
-test(follower_of_a_guarded_host, O == disposed) :-
-    with_hosts([alpha-[policy(guarded), cell(none)]],
-               ( create([ (main :- create(clauses([ (:- agent(c, [])),
-                                                    (main :- receive(_)) ]),
-                                          C0, [follows(true)]),
-                                   assertz(r(C0)), receive(_-_)) ], P),
-                 wait_until(agent_property(P, facts([r(C)])), 10),
-                 agent_dispose(P),
-                 joined(C, O) )).
-test(monitoring_twice_reports_once) :-
-    with_hosts([alpha],
-               ( watcher(W, [], []),
-                 sleeper(A, []),
-                 monitors(W, A),
-                 agent_send(W, monitor(A)),
-                 wait_until(( agent_property(W, facts(Facts)),
-                              findall(x, member(r(A), Facts), [_,_]) ), 10),
-                 ends(A, true),
-                 once_only(W, down(A, done)) )).
-test(unmonitor_ends_reports, Ms == [Other]) :-
-    with_hosts([alpha],
-               ( watcher(W, [], []),
-                 sleeper(A, []),
-                 monitors(W, A),
-                 unmonitors(W, A),
-                 ends(A, true),
-                 joined(A, done),
-                 receives_other(W, Other),
-                 received(W, Ms) )).
-test(monitored_again_after_unmonitor) :-
-    with_hosts([alpha],
-               ( watcher(W, [], []),
-                 sleeper(A, []),
-                 monitors(W, A),
-                 unmonitors(W, A),
-                 monitors(W, A),
-                 ends(A, true),
-                 once_only(W, down(A, done)) )).
-test(monitored_by_many, Count == 50) :-
-    with_hosts([alpha],
-               ( sleeper(A, []),
-                 findall(W, ( between(1, 50, _), watcher(W, [], []) ), Ws),
-                 forall(member(W, Ws), agent_send(W, monitor(A))),
-                 forall(member(W, Ws), set(W, A)),
-                 ends(A, true),
-                 forall(member(W, Ws), receives(W, down(A, done))),
-                 aggregate_all(count,
-                               ( member(W, Ws), received(W, [down(A, done)]) ),
-                               Count) )).
-test(faulty_agent_is_reported_once, [true(Ms == [down(A, failed), Other])]) :-
-    with_hosts([alpha],
-               ( watcher(W, [], []),
-                 create([ (main :- receive(_-end(_)), s(_)) ], A),
-                 monitors(W, A),
-                 capturing(( ends(A, true), joined(A, failed) ), _),
-                 receives(W, down(A, failed)),
-                 agent_change(A, facts([s(1)])),
-                 agent_resume(A),
-                 joined(A, done),
-                 receives_other(W, Other),
-                 received(W, Ms) )).
-test(both_agents_move) :-
-    with_hosts([alpha, beta],
-               ( watcher(W, [], []),
-                 sleeper(A, []),
-                 monitors(W, A),
-                 address(beta, Beta),
-                 agent_move(A, Beta, [wait(5)]),
-                 agent_move(W, Beta, [wait(5)]),
-                 ends(A, true),
-                 once_only(W, down(A, done)) )).
-test(report_is_received, X == done) :-
-    with_hosts([alpha],
-               ( create([ (main :- create(clauses([(:- agent(c, [])),
-                                                   (main :- sleep(0.1))]),
-                                          C, []),
-                                   monitor(C),
-                                   receive(system-down(C, O)),
-                                   result(O)) ], A),
-                 agent_result(A, X, 10) )).
-test(monitors_in_virtual_time, X == done-5.0) :-
-    with_hosts([alpha-[clock(virtual)]],
-               ( create([ (main :- now(T0),
-                                   create(clauses([(:- agent(c, [])),
-                                                   (main :- sleep(5.0))]),
-                                          C, []),
-                                   monitor(C),
-                                   receive(system-down(C, O)),
-                                   now(T), D is T-T0,
-                                   result(O-D)) ], A),
-                 agent_result(A, X, 10) )).
-test(monitors_on_a_guarded_host, X == done) :-
-    with_hosts([alpha-[policy(guarded), cell(none)]],
-               ( create([ (main :- create(clauses([(:- agent(c, [])),
-                                                   (main :- true)]),
-                                          C, []),
-                                   monitor(C),
-                                   receive(system-down(C, O)),
-                                   result(O)) ], A),
-                 agent_result(A, X, 10) )).
+happens(Places, Steps) :-
+    findall(Peer, ( member(P, [p1, p2, p3]), occurs(P, Places-Steps),
+                    ( occurs(cut(P), Steps) -> Peer = P-[proxy(true)]
+                    ; Peer = P ) ), Peers),
+    happens(Peers, Places, Steps).
 
-:- end_tests(monitors).
+happens(Peers, Places, Steps) :-
+    no_leaks(with_peers(Peers, here(capturing(happens_to(Places, Steps), _)))).
 
-:- begin_tests(shared_fate).
-
-test(watcher_ends_with_the_agent, O == disposed) :-
-    with_hosts([alpha],
-               ( watcher(W, [], []),
-                 sleeper(A, []),
-                 shares(W, A),
-                 agent_dispose(A),
-                 joined(W, O) )).
-test(agent_ends_with_the_watcher, O == disposed) :-
-    with_hosts([alpha],
-               ( watcher(W, [], []),
-                 sleeper(A, []),
-                 shares(W, A),
-                 agent_dispose(W),
-                 joined(A, O) )).
-test(follower_gets_no_message, Ms == [Other]) :-
-    with_hosts([alpha],
-               ( watcher(W, [ (on_message(user, follows(A)) :-
-                                  monitor(A, [shared(self)]),
-                                  assertz(r(A))) ], []),
-                 sleeper(A, []),
-                 agent_send(W, follows(A)),
-                 set(W, A),
-                 ends(A, true),
-                 joined(A, done),
-                 receives_other(W, Other),
-                 received(W, Ms) )).
-test(outcome_done_is_reported) :-
-    with_hosts([alpha],
-               ( watcher(W, [], []),
-                 sleeper(A, []),
-                 shares(W, A),
-                 ends(A, true),
-                 once_only(W, down(A, done)) )).
-test(unmonitor_ends_shared_fate) :-
-    with_hosts([alpha],
-               ( watcher(W, [], []),
-                 sleeper(A, []),
-                 shares(W, A),
-                 unmonitors(W, A),
-                 agent_dispose(A),
-                 receives_other(W, _),
-                 agent_property(W, state(resident)),
-                 sleeper(B, []),
-                 sleeper(C, []),
-                 shares(W, B),
-                 unmonitors(W, B),
-                 shares(W, C),
-                 agent_dispose(W),
-                 joined(C, disposed),
-                 agent_property(B, state(waiting)) )).
-
-:- end_tests(shared_fate).
-
-:- begin_tests(agent_monitor).
-
-:- dynamic down/2.
-
-note(A, O) :-
-    assertz(down(A, O)).
-
-reported(A, O) :-
-    wait_until(down(A, O), 20).
-
-forget :-
-    retractall(down(_, _)).
-
-test(agent_of_this_process, [cleanup(forget)]) :-
-    with_hosts([alpha],
-               ( sleeper(A, [name(bob)]),
-                 agent_monitor(bob, note),
-                 ends(A, true),
-                 reported(A, done) )).
-test(goal_with_two_solutions_is_called_once,
-     [cleanup(forget), true(Notes == [first])]) :-
-    with_hosts([alpha],
-               ( sleeper(A, []),
-                 agent_monitor(A, [Id,_]>>( member(N, [first,second]),
-                                            note(Id, N) )),
-                 ends(A, true),
-                 reported(A, first) )),
-    findall(N, down(A, N), Notes).
-test(goal_that_raises, [cleanup(forget)]) :-
-    with_hosts([alpha],
-               ( sleeper(A, []),
-                 agent_monitor(A, no_such_predicate),
-                 agent_monitor(A, note),
-                 capturing(( ends(A, true), reported(A, done),
-                             wait_until(was_printed(_, _), 5) ), _) )).
-test(no_such_agent, error(existence_error(agent, unknown))) :-
-    with_hosts([alpha], agent_monitor(unknown, note)).
-test(guest_monitors_an_agent_of_another_process, [cleanup(forget)]) :-
-    no_leaks(with_peers([p1],
-                 ( peer_host(p1, There),
-                   sleeper(A, [host(There)]),
-                   agent_monitor(A, note),
-                   ends(A, true),
-                   reported(A, done) ))).
-test(agent_lost_with_its_process, [cleanup(forget), true(H == There)]) :-
-    no_leaks(with_peers([p1],
-                 ( peer_host(p1, There),
-                   sleeper(A, [host(There)]),
-                   sleeper(B, [host(There)]),
-                   agent_monitor(A, note),
-                   agent_monitor(B, note),
-                   ends(B, true),
-                   reported(B, done),
-                   peer_kill(p1),
-                   reported(A, lost(H)) ))).
-
-:- end_tests(agent_monitor).
-
-%   Watchers and agents in two processes, and in this one.
-
-:- begin_tests(monitors_of_processes).
+occurs(Part, Term) :-
+    sub_term(Part0, Term),
+    Part0 == Part,
+    !.
 
 %   Leaks are checked after the processes have ended.
 
@@ -391,22 +124,214 @@ test(agent_lost_with_its_process, [cleanup(forget), true(H == There)]) :-
 here(Goal) :-
     setup_call_cleanup(host_start(alpha), once(Goal), host_stop(alpha)).
 
-test(agents_and_watchers_in_each_process,
-     [forall(member(Wh-Ah, [here-p1, p1-here, p1-p2, p1-p1]))]) :-
-    no_leaks(with_peers([p1, p2],
-        here(
-            ( at(Wh, WHost), at(Ah, AHost),
-              watcher(W, [], [host(WHost)]),
-              sleeper(A, [host(AHost)]),
-              monitors(W, A),
-              ends(A, true),
-              once_only(W, down(A, done)) )))).
+happens_to(Places, Steps) :-
+    findall(Name-Id,
+            ( member(Name, [w, a, b, c]),
+              ( Name == w -> true ; occurs(Name, Steps) ),
+              ( memberchk(Name-P, Places) -> true ; P = here ),
+              at(P, Host),
+              ( Name == w -> watcher(Id, [host(Host)])
+              ; sleeper(Id, [host(Host)]) ) ),
+            Ids),
+    forall(member(Step, Steps),
+           ( step(Step, Ids) -> true ; throw(failed_at(Step)) )).
 
 at(here, Host) :-
     !,
     address(alpha, Host).
 at(Peer, Host) :-
     peer_host(Peer, Host).
+
+step(monitor(X), Ids)   => ordered(Ids, X, A, monitor(A)).
+step(share(X), Ids)     => ordered(Ids, X, A, monitor(A, [shared(true)])).
+step(follow(X), Ids)    => ordered(Ids, X, A, monitor(A, [shared(self)])).
+step(unmonitor(X), Ids) => ordered(Ids, X, A, unmonitor(A)).
+step(X/P, Ids) =>
+    memberchk(X-A, Ids),
+    at(P, Host),
+    agent_move(A, Host, [wait(5)]).
+step(end(X), Ids) => step(end(X, true), Ids).
+step(end(X, How), Ids) =>
+    memberchk(X-A, Ids),
+    ends(A, How),
+    joined(A, _).
+step(dispose(X), Ids) => memberchk(X-A, Ids), agent_dispose(A).
+step(resume(X), Ids) =>
+    memberchk(X-A, Ids),
+    agent_change(A, facts([s(1)])),
+    agent_resume(A),
+    joined(A, done).
+step(kill(P), _)    => peer_kill(P).
+step(restart(P), _) => peer_restart(P).
+step(stop(P), _)    => peer_do(P, host_stop(P)).
+step(cut(P), _)     => peer_proxy(P, Proxy), proxy_cut(Proxy).
+step(link(here, P), _) => at(P, Host), link(alpha, Host).
+step(link(P, Q), _) => at(Q, Host), peer_do(P, link(P, Host)).
+step(gets(X, O), Ids) =>
+    memberchk(w-W, Ids),
+    report(Ids, X-O, Message),
+    receives(W, Message).
+step(only(Reports), Ids) =>
+    memberchk(w-W, Ids),
+    maplist(report(Ids), Reports, Messages),
+    forall(member(M, Messages), receives(W, M)),
+    in_sync(W),
+    has_of_them(W, Ids, Messages).
+step(ended(X, O), Ids)  => memberchk(X-A, Ids), joined(A, O).
+step(state(X, S), Ids)  => memberchk(X-A, Ids), wait_state(A, S).
+step(is_on(P, X), Ids)  => memberchk(X-A, Ids), on_peer(P, A).
+step(gone_from(P, X), Ids) => memberchk(X-A, Ids), \+ on_peer(P, A).
+step(disposed_or_lost(X, P), Ids) =>
+    memberchk(w-W, Ids),
+    memberchk(X-A, Ids),
+    at(P, Host),
+    wait_until(fact_of(W, s(_)), 20),
+    member(O, [disposed, lost(Host)]),
+    has_of_them(W, Ids, [down(A, O)]),
+    !.
+
+on_peer(P, Pattern) :-
+    peer_do(P, ( agent_property(A, state(_)), sub_atom(A, 0, _, _, Pattern) )).
+
+ordered(Ids, X, A, Goal) :-
+    memberchk(w-W, Ids),
+    memberchk(X-A, Ids),
+    order(W, Goal).
+
+report(Ids, X-O0, down(A, O)) :-
+    memberchk(X-A, Ids),
+    ( O0 = lost(P) -> at(P, Host), O = lost(Host) ; O = O0 ).
+
+has_of_them(W, Ids, Messages) :-
+    findall(down(A, O), ( fact_of(W, s(down(A, O))), memberchk(_-A, Ids) ),
+            Messages).
+
+:- begin_tests(monitors).
+
+test(reports, [forall(story(Name, Places, Steps)), nondet]) :-
+    ( happens(Places, Steps) -> true ; throw(story(Name)) ).
+test(unknown_agent) :-
+    with_hosts([alpha],
+               ( watcher(W, []),
+                 address(alpha, H),
+                 atom_concat('unknown.x.1@', H, A),
+                 monitors(W, A),
+                 receives(W, down(A, unknown)) )).
+test(monitor_that_cannot_be_set,
+     [ forall(member(Goal-Error,
+                     [ monitor(bob)-existence_error(agent, bob),
+                       ( self(A), monitor(A, [hot(true)]) )
+                           -domain_error(monitor_option, _) ])),
+       true(subsumes_term(Error, Formal)) ]) :-
+    result_on([alpha],
+              [(main :- catch(Goal, error(F, _), true), result(F))], Formal).
+
+%   A parent P and its child C, which has the clause Does.
+
+child(Does, clauses([(:- agent(c, [])), Does])).
+
+parent(Does, C, P) :-
+    child(Does, Child),
+    create([ (main :- create(Child, Id, [follows(true)]), assertz(r(Id)),
+                      receive(_-end(How)), call(How)) ], P),
+    wait_until(( fact_of(P, r(C)), state_of(C, State),
+                 memberchk(State, [resident, waiting]) ), 10).
+
+test(follower_ends_with_its_parent,
+     [ forall(( member(Options, [[], [policy(guarded), cell(none)]]),
+                member(How-Outcome, [throw(oops)-disposed, true-done]) )),
+       Ended == Outcome ]) :-
+    with_hosts([alpha-Options],
+               ( parent((main :- receive(_-end)), C, P),
+                 capturing(( ends(P, How), joined(P, _) ), _),
+                 ( How == true -> agent_send(C, end) ; true ),
+                 joined(C, Ended) )).
+test(follower_that_moves_before_its_first_turn, O == disposed) :-
+    with_hosts([alpha, beta],
+               ( parent(on_message(_, _), C, P),
+                 agent_move(C, beta, [wait(5)]),
+                 agent_dispose(P),
+                 joined(C, O) )).
+test(followers_are_listed, Cs == [C]) :-
+    child((main :- receive(_)), Child),
+    result_on([alpha], [ (main :- create(Child, _, []),
+                                  create(Child, C0, [follows(true)]),
+                                  followers(Ds), result(Ds-C0)) ], Cs-C).
+test(monitored_by_many, Lists == [[down(A, done)]]) :-
+    with_hosts([alpha],
+               ( sleeper(A, []),
+                 findall(W, ( between(1, 50, _), watcher(W, []),
+                              monitors(W, A) ), Ws),
+                 ends(A, true),
+                 forall(member(W, Ws), receives(W, down(A, done))),
+                 findall(Ms, ( member(W, Ws),
+                               findall(M, fact_of(W, s(M)), Ms) ), Lists0),
+                 sort(Lists0, Lists) )).
+
+%   The child is monitored until it ends, if it has not ended before.
+
+test(report_is_received,
+     [ forall(member(Options-Life, [ []-0.1, [clock(virtual)]-5.0,
+                                     [policy(guarded), cell(none)]-0 ])),
+       true(O == done) ]) :-
+    result_on([alpha-Options],
+              [ (main :- now(T0),
+                         create(clauses([ (:- agent(c, [])),
+                                          (main :- sleep(Life)) ]), C, []),
+                         monitor(C), receive(system-down(C, O0)),
+                         now(T), Took is T-T0, result(O0-Took)) ], O-Took),
+    assertion(( Life == 5.0 -> Took =:= Life ; true )).
+
+:- end_tests(monitors).
+
+:- begin_tests(agent_monitor).
+
+:- dynamic noted/2.
+
+note(A, O) :-
+    assertz(noted(A, O)).
+
+is_noted(A, O) :-
+    wait_until(noted(A, O), 20).
+
+forget :-
+    retractall(noted(_, _)).
+
+test(goal_is_called_once,
+     [ cleanup(forget), true(Notes == [first]) ]) :-
+    with_hosts([alpha],
+               ( sleeper(A, [name(bob)]),
+                 agent_monitor(bob, [Id,_]>>( member(N, [first,second]),
+                                              note(Id, N) )),
+                 ends(A, true),
+                 is_noted(A, first) )),
+    findall(N, noted(A, N), Notes).
+test(goal_that_raises, [cleanup(forget)]) :-
+    with_hosts([alpha],
+               ( sleeper(A, []),
+                 agent_monitor(A, no_such_predicate),
+                 agent_monitor(A, note),
+                 capturing(( ends(A, true), is_noted(A, done),
+                             wait_until(was_printed(_, _), 5) ), _) )).
+test(no_such_agent, error(existence_error(agent, unknown))) :-
+    with_hosts([alpha], agent_monitor(unknown, note)).
+test(process_without_a_host, [cleanup(forget), true(H == There)]) :-
+    no_leaks(with_peers([p1],
+                 ( peer_host(p1, There),
+                   sleeper(A, [host(There)]),
+                   sleeper(B, [host(There)]),
+                   agent_monitor(A, note),
+                   agent_monitor(B, note),
+                   ends(B, true),
+                   is_noted(B, done),
+                   peer_kill(p1),
+                   is_noted(A, lost(H)) ))).
+
+:- end_tests(agent_monitor).
+
+%   Watchers and agents in two processes, and in this one.
+
+:- begin_tests(monitors_of_processes).
 
 %   An agent that was created at p1, and runs here, shares its fate with
 %   another one there: p1 would end that one for this process.
@@ -431,8 +356,7 @@ shared_from_here(Peer, Said, State) :-
                                 assertz(said(S)), receive(_-end), fail) ]),
     peer_do(Peer, agent_create(Victim, V)),
     peer_do(Peer, agent_create(Sharer, A, [facts([with(V, Here)])])),
-    wait_until(( agent_property(A, facts(Facts)),
-                 memberchk(said(Said), Facts) ), 20),
+    wait_until(fact_of(A, said(Said)), 20),
     capturing(( agent_send(A, end), joined(A, failed) ), _),
     (   Said == monitored
     ->  peer_do(Peer, agent_join(V, disposed, 10)),
@@ -440,120 +364,6 @@ shared_from_here(Peer, Said, State) :-
     ;   peer_do(Peer, agent_property(V, state(State)))
     ).
 
-test(both_agents_move, [nondet]) :-
-    no_leaks(with_peers([p1, p2],
-        here(
-            ( at(p1, H1), at(p2, H2),
-              watcher(W, [], []),
-              sleeper(A, []),
-              agent_move(W, H1, [wait(5)]),
-              monitors(W, A),
-              agent_move(A, H2, [wait(5)]),
-              agent_move(W, H2, [wait(5)]),
-              agent_move(A, H1, [wait(5)]),
-              ends(A, true),
-              once_only(W, down(A, done)) )))).
-test(agent_lost_with_its_home, [nondet]) :-
-    no_leaks(with_peers([p1],
-        here(
-            ( at(p1, H1),
-              watcher(W, [], []),
-              sleeper(A, [host(H1)]),
-              sleeper(B, [host(H1)]),
-              monitors(W, A),
-              monitors(W, B),
-              ends(B, true),
-              receives(W, down(B, done)),
-              peer_kill(p1),
-              receives(W, down(A, lost(H1))),
-              receives_other(W, Other),
-              received(W, Ms),
-              assertion(Ms == [down(B, done), down(A, lost(H1)), Other]) )))).
-test(agent_away_when_its_home_dies, [nondet]) :-
-    no_leaks(with_peers([p1, p2, p3],
-        here(
-            ( at(p1, H1), at(p2, H2), at(p3, H3),
-              link(alpha, H3),
-              peer_do(p3, link(p3, H2)),
-              watcher(W, [], []),
-              sleeper(A, [host(H1)]),
-              sleeper(B, [host(H1)]),
-              monitors(W, A),
-              agent_move(A, H2, [wait(5)]),
-              agent_move(B, H2, [wait(5)]),
-              peer_kill(p1),
-              once_only(W, down(A, lost(H1))),
-              assertion(\+ peer_do(p2, typhon_agents:agent_on(A, _))),
-              assertion(peer_do(p2, typhon_agents:agent_on(B, _))) )))).
-test(agent_lost_in_a_dead_process, [nondet]) :-
-    no_leaks(with_peers([p1],
-        here(
-            ( at(p1, H1),
-              watcher(W, [], []),
-              sleeper(A, []),
-              monitors(W, A),
-              agent_move(A, H1, [wait(5)]),
-              peer_kill(p1),
-              once_only(W, down(A, lost(H1))) )))).
-test(agent_lost_in_a_third_process, [nondet]) :-
-    no_leaks(with_peers([p1, p2, p3],
-        here(
-            ( at(p1, H1), at(p2, H2), at(p3, H3),
-              watcher(W, [], [host(H3)]),
-              sleeper(A, [host(H1)]),
-              monitors(W, A),
-              agent_move(A, H2, [wait(5)]),
-              peer_kill(p2),
-              once_only(W, down(A, lost(H2))) )))).
-test(agent_that_hopped_on_is_not_lost, [nondet]) :-
-    no_leaks(with_peers([p1, p2],
-        here(
-            ( at(p1, H1), at(p2, H2),
-              watcher(W, [], []),
-              sleeper(A, []),
-              sleeper(B, [host(H1)]),
-              monitors(W, A),
-              monitors(W, B),
-              agent_move(A, H1, [wait(5)]),
-              agent_move(A, H2, [wait(5)]),
-              peer_kill(p1),
-              receives(W, down(B, lost(H1))),
-              ends(A, true),
-              receives(W, down(A, done)),
-              received(W, Ms),
-              assertion(Ms == [down(B, lost(H1)), down(A, done)]) )))).
-test(process_restarted_at_the_same_address, [nondet]) :-
-    no_leaks(with_peers([p1],
-        here(
-            ( at(p1, H1),
-              watcher(W, [], []),
-              sleeper(A, [host(H1)]),
-              monitors(W, A),
-              peer_kill(p1),
-              peer_restart(p1),
-              once_only(W, down(A, lost(H1))) )))).
-test(orderly_stop, [nondet]) :-
-    no_leaks(with_peers([p1],
-        here(
-            ( at(p1, H1),
-              watcher(W, [], []),
-              sleeper(A, [host(H1)]),
-              monitors(W, A),
-              peer_do(p1, host_stop(p1)),
-              wait_until(received(W, [_]), 20),
-              received(W, [down(A, O)]),
-              assertion(memberchk(O, [disposed, lost(H1)])) )))).
-test(shared_fate_with_an_agent_of_a_dying_process, [nondet]) :-
-    no_leaks(with_peers([p1],
-        here(
-            ( at(p1, H1),
-              watcher(W, [], [host(H1)]),
-              sleeper(A, []),
-              shares(W, A),
-              receives_other(W, _),
-              peer_kill(p1),
-              joined(A, O),
-              assertion(O == disposed) )))).
 %   The parent's home dies before it creates the child, which only the parent
 %   knows.
 
@@ -573,27 +383,8 @@ test(child_of_a_parent_without_a_home, [nondet]) :-
               agent_move(P, Here, [wait(5)]),
               peer_kill(p1),
               agent_send(P, to(H2)),
-              wait_until(\+ typhon_agents:agent(P, _, _, _, _), 20),
-              wait_until(\+ peer_do(p2, ( typhon_agents:agent(Id, _, _, _, _),
-                                          sub_atom(Id, 0, _, _, 'left.') )),
-                         20) )))).
-test(broken_connection, [nondet]) :-
-    no_leaks(with_peers([p1-[proxy(true)]],
-        here(
-            ( at(p1, H1),
-              watcher(W, [], []),
-              sleeper(A, [host(H1)]),
-              monitors(W, A),
-              peer_proxy(p1, Proxy),
-              sleeper(B, [host(H1)]),
-              proxy_cut(Proxy),
-              monitors(W, B),
-              ends(B, true),
-              receives(W, down(B, done)),
-              ends(A, true),
-              receives(W, down(A, done)),
-              received(W, Ms),
-              assertion(Ms == [down(B, done), down(A, done)]) )))).
+              wait_until(\+ ( agent_property(A, state(_)), A == P ), 20),
+              wait_until(\+ on_peer(p2, 'left.'), 20) )))).
 
 :- end_tests(monitors_of_processes).
 
@@ -601,44 +392,23 @@ test(broken_connection, [nondet]) :-
 
 :- begin_tests(monitors_in_the_journal, [condition(missing([journal], []))]).
 
-lasting(Dir) :-
+with_journals(Ps, Peers, Dir) :-
     findall(P-[host([journal(J)])],
-            ( member(P, [p1, p2]), atomic_list_concat([Dir, /, P], J) ),
-            Specs),
-    with_peers(Specs, lasts).
+            ( member(P, Ps), atomic_list_concat([Dir, /, P], J) ), Peers).
 
-lasts :-
-    setup_call_cleanup(host_start(alpha), both_die, host_stop(alpha)).
-
-both_die :-
-    peer_host(p1, H1),
-    peer_host(p2, H2),
-    watcher(W, [], [host(H1)]),
-    sleeper(A, [host(H2)]),
-    sleeper(B, [host(H2)]),
-    monitors(W, A),
-    monitors(W, B),
-    peer_kill(p1),
-    peer_kill(p2),
-    peer_restart(p2),
-    wait_until(agent_property(A, state(waiting)), 20),
-    ends(A, true),
-    joined(A, done),
-    peer_restart(p1),
-    wait_until(agent_property(W, state(resident)), 20),
-    once_only(W, down(A, done)),
-    ends(B, true),
-    receives(W, down(B, done)).
+both_die(Dir) :-
+    with_journals([p1, p2], Peers, Dir),
+    happens(Peers, [w-p1, a-p2, b-p2],
+            [ monitor(a), monitor(b), kill(p1), kill(p2), restart(p2),
+              state(a, waiting), end(a), restart(p1), state(w, resident),
+              only([a-done]), end(b), gets(b, done) ]).
 
 %   The goals of agent_monitor/2 end with their process: the next process does
 %   not call them.
 
 goals_end(Dir) :-
-    atomic_list_concat([Dir, /, p1], J),
-    with_peers([p1-[host([journal(J)])]], goals_end).
-
-goals_end :-
-    setup_call_cleanup(host_start(alpha), monitored_again, host_stop(alpha)).
+    with_journals([p1], Peers, Dir),
+    with_peers(Peers, here(monitored_again)).
 
 monitored_again :-
     sleeper(A, []),
@@ -662,6 +432,6 @@ monitored_by_peer(A) :-
 test(monitoring_goals_end_with_their_process, [nondet]) :-
     no_leaks(with_tmp_dir(goals_end)).
 test(both_processes_die, [nondet]) :-
-    no_leaks(with_tmp_dir(lasting)).
+    with_tmp_dir(both_die).
 
 :- end_tests(monitors_in_the_journal).
