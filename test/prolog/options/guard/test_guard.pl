@@ -21,174 +21,77 @@ time and run by the machine, and constructed and run by Prolog.
 
 %   attack(-Goal): a goal that no untrusted agent may call.
 
-attack(halt).
-attack(halt(1)).
-attack(abort).
-attack(close(user_output)).
-attack(close(user_error, [force(true)])).
-attack(set_output(x)).
-attack(see(x)).
-attack(open('/tmp/x', write, _)).
-attack(write(x)).
-attack(writeln(x)).
-attack(nl).
-attack(print(x)).
-attack(read(_)).
-attack(read_term(user_input, _, [])).
-attack(read_term_from_atom('a', _, [])).
-attack(consult(user)).
-attack(load_files(library(lists), [])).
-attack(use_module(library(process))).
-attack(use_foreign_library(foreign(process))).
-attack(open_shared_object(x, _)).
-attack(shell(true)).
-attack(process_create(path(true), [], [])).
-attack(delete_file('/tmp/typhon_no_such')).
-attack(exists_file('/etc/passwd')).
-attack(getenv('HOME', _)).
-attack(setenv(x, y)).
-attack(working_directory(_, _)).
-attack(thread_create(true, _)).
-attack(thread_self(_)).
-attack(thread_exit(true)).
-attack(thread_signal(main, halt)).
-attack(thread_send_message(main, x)).
-attack(thread_get_message(_)).
-attack(thread_join(main, _)).
-attack(mutex_lock(typhon_code)).
-attack(with_mutex(typhon_code, true)).
-attack(message_queue_create(_)).
-attack(set_prolog_flag(double_quotes, atom)).
-attack(set_prolog_flag(stack_limit, 1)).
-attack(current_prolog_flag(pid, _)).
-attack(create_prolog_flag(x, 1, [])).
-attack(set_stream(user_output, alias(x))).
-attack(op(700, xfx, =>>)).
-attack(nb_setval(typhon_turns, none)).
-attack(b_setval(typhon_turns, none)).
-attack(nb_getval(typhon_turns, _)).
-attack(nb_current(_, _)).
-attack(flag(x, _, 1)).
-attack(set_flag(x, 1)).
-attack(recorda(x, y)).
-attack(asserta(user:portray(_))).
-attack(assertz((user:portray(_) :- true))).
-attack(assertz((portray(_) :- halt))).
-attack(assertz((p(X) :- user:X))).
-attack(assertz('$mobile'(_, _, _, _, _, _))).
-attack(assertz('mobile main'([], [], _))).
-attack(assertz((term_expansion(_, _) :- shell(x)))).
-attack(assertz((goal_expansion(_, _) :- shell(x)))).
-attack(assertz((attr_unify_hook(_, _) :- halt))).
-attack(retract(typhon_agents:agent(_, _, _, _, _))).
-attack(retract((user:portray(_) :- _))).
-attack(retractall(system:foo(_))).
-attack(retractall('$tuple'(_))).
-attack(abolish(foo/1)).
-attack(dynamic(foo/1)).
-attack(clause(typhon_words:send(_, _), _)).
-attack(predicate_property(_, _)).
-attack(current_predicate(_)).
-attack(current_module(_)).
-attack(module(user)).
-attack(set_module(user)).
-attack(add_import_module(user, system, end)).
-attack(import_module(_, _)).
-attack(@(true, user)).
-attack(user:true).
-attack(system:halt).
-attack(typhon_place:place_destroy(x)).
-attack(call(user:true)).
-attack(findall(_, user:true, _)).
-attack(setof(_, _^halt, _)).
-attack(setof(_, _^user:true, _)).
-attack(forall(true, halt)).
-attack(\+ halt).
-attack(catch(true, _, halt) ; halt).
-attack(catch(halt, _, true)).
-attack(catch_with_backtrace(true, _, true)).
-attack(catch(throw(x), _, halt)).
-attack(setup_call_cleanup(true, true, halt)).
-attack(call_cleanup(true, halt)).
-attack(throw('$aborted')).
-attack(throw(unwind(halt(0)))).
-attack(throw(inference_limit_exceeded(_))).
-attack((length(L, 20000), throw(L))).
-attack(call_with_inference_limit(true, 1, _)).
-attack(call_with_time_limit(1, true)).
-attack(prolog_cut_to(1)).
-attack('$cut'(1)).
-attack('$at'(x, halt)).
-attack('$fault'(x)).
-attack('$set_source_module'(user)).
-attack('$destroy_module'(user)).
-attack(prolog_current_frame(_)).
-attack(prolog_skip_level(_, 1)).
-attack(put_attr(_, user, x)).
-attack(freeze(_, halt)).
-attack(when(ground(_), halt)).
-attack(dif(_, _)).
-attack(del_attrs(_)).
-attack(tnot(x)).
-attack(abolish_all_tables).
-attack(garbage_collect).
-attack(garbage_collect_atoms).
-attack(trim_stacks).
-attack(trace).
-attack(spy(foo)).
-attack(protocol(x)).
-attack(print_message(error, format("~@", [halt]))).
-attack(message_to_string(format("~@", [halt]), _)).
-attack(assertion(fail)).
-attack(debug(typhon(_))).
-attack(format("~w", [x])).
-attack(format(user_error, "~w", [x])).
-attack(format(string(_), "~@", [halt])).
-attack(format(string(_), "~p", [x])).
-attack(format(string(_), "~*c", [100000000, 0'x])).
-attack(format(string(_), "~9999999|", [])).
-attack(format(atom(_), "~w", [x])).
-attack(with_output_to(string(_), halt)).
-attack(term_to_atom(_, '{|html||x|}')).
-attack(term_string(_, "{|html||x|}")).
-attack(normalize_space(user_error, x)).
-attack(sformat(_, "x", [])).
-attack(phrase(halt, [])).
-attack(phrase({halt}, [])).
-attack(phrase(user:x, [])).
-attack(maplist(halt, [])).
-attack(maplist([X]>>shell(X), [true])).
-attack(maplist(user:foo, [1])).
-attack(foldl([X,Y,Y]>>(call(user:X)), [true], a, _)).
-attack(aggregate_all(count, shell(_), _)).
-attack(aggregate_all(count, user:true, _)).
-attack(aggregate_all(bag(x), _^shell(x), _)).
-attack(maplist(aggregate_all(bag(x)), [_^shell(x)], _)).
-attack(aggregate_all(count, x, _^shell(x), _)).
-attack(group_by(x, x, _^shell(x), _)).
-attack(call(call, halt)).
-attack(call(call(call), shell, x)).
-attack(call(',', true, halt)).
-attack(call((',')/2, true)).
-attack(apply(halt, [])).
-attack(not(halt)).
-attack(once(ignore((true, halt)))).
-attack((true -> halt ; true)).
-attack((fail *-> true ; halt)).
-attack(set_random(seed(1))).
-attack(deliver(x)).
-attack(undeliver(x)).
-attack(attach('/etc/passwd')).
-attack(attach(library(lists))).
-attack(attach(payloads('../../x'))).
-attack(tcp_socket(_)).
-attack(host_stop(g)).
-attack(host_start(other)).
-attack(remote(g, halt)).
-attack(agent_dispose(x)).
-attack(agent_create(x, _)).
-attack(variant_sha1(x, _)).
-attack(sleep(1, 2, 3) ; consult(x)).
+attack(Goal) :-
+    member(Name/Arity,
+           [ halt/0, halt/1, abort/0, close/1, close/2, set_output/1, see/1,
+             open/3, write/1, writeln/1, nl/0, print/1, read/1, read_term/3,
+             read_term_from_atom/3, consult/1, load_files/2, use_module/1,
+             use_foreign_library/1, open_shared_object/2, shell/1,
+             process_create/3, delete_file/1, exists_file/1, getenv/2,
+             setenv/2, working_directory/2, thread_create/2, thread_self/1,
+             thread_exit/1, thread_signal/2, thread_send_message/2,
+             thread_get_message/1, thread_join/2, mutex_lock/1, with_mutex/2,
+             message_queue_create/1, set_prolog_flag/2, current_prolog_flag/2,
+             create_prolog_flag/3, set_stream/2, op/3, nb_setval/2, b_setval/2,
+             nb_getval/2, nb_current/2, flag/3, set_flag/2, recorda/2,
+             abolish/1, (dynamic)/1, predicate_property/2, current_predicate/1,
+             current_module/1, module/1, set_module/1, add_import_module/3,
+             import_module/2, catch_with_backtrace/3,
+             call_with_inference_limit/3,
+             call_with_time_limit/2, prolog_cut_to/1, '$set_source_module'/1,
+             '$destroy_module'/1, prolog_current_frame/1, prolog_skip_level/2,
+             put_attr/3, freeze/2, when/2, dif/2, del_attrs/1, tnot/1,
+             abolish_all_tables/0, garbage_collect/0, garbage_collect_atoms/0,
+             trim_stacks/0, trace/0, spy/1, protocol/1,
+             message_to_string/2, assertion/1, debug/1, format/2,
+             normalize_space/2, sformat/3,
+             set_random/1,
+             tcp_socket/1, variant_sha1/2, ]),
+    functor(Goal, Name, Arity).
+attack(Goal) :-
+    member(Goal,
+           [ asserta(user:portray(_)), assertz((user:portray(_) :- true)),
+             assertz((portray(_) :- halt)), assertz((p(X) :- user:X)),
+             assertz('$mobile'(_, _, _, _, _, _)),
+             assertz('mobile main'([], [], _)),
+             assertz((term_expansion(_, _) :- shell(x))),
+             assertz((goal_expansion(_, _) :- shell(x))),
+             assertz((attr_unify_hook(_, _) :- halt)),
+             retract(typhon_agents:agent(_, _, _, _, _)),
+             retract((user:portray(_) :- _)), retractall(system:foo(_)),
+             retractall('$tuple'(_)), clause(typhon_words:send(_, _), _),
+             @(true, user), user:true, system:halt,
+             typhon_place:place_destroy(x), findall(_, user:true, _),
+             setof(_, _^halt, _), setof(_, _^user:true, _), forall(true, halt),
+             \+ halt, (catch(true, _, halt) ; halt), catch(halt, _, true),
+             catch(throw(x), _, halt), throw('$aborted'),
+             throw(unwind(halt(0))), throw(inference_limit_exceeded(_)),
+             (length(L, 20000), throw(L)), '$cut'(1), '$at'(x, halt),
+             '$fault'(x), format(user_error, "~w", [x]),
+             format(string(_), "~@", [halt]), format(string(_), "~p", [x]),
+             format(string(_), "~*c", [100000000, 0'x]),
+             format(string(_), "~9999999|", []), format(atom(_), "~w", [x]),
+             term_to_atom(_, '{|html||x|}'), term_string(_, "{|html||x|}"),
+             maplist(halt, []), maplist([X]>>shell(X), [true]),
+             maplist(user:foo, [1]),
+             foldl([X,Y,Y]>>(call(user:X)), [true], a, _),
+             aggregate_all(count, shell(_), _),
+             aggregate_all(count, user:true, _),
+             aggregate_all(bag(x), _^shell(x), _),
+             maplist(aggregate_all(bag(x)), [_^shell(x)], _),
+             aggregate_all(count, x, _^shell(x), _),
+             group_by(x, x, _^shell(x), _), once(ignore((true, halt))),
+             (true -> halt ; true), (fail *-> true ; halt),
+             attach('/etc/passwd'), attach(library(lists)),
+             attach(payloads('../../x')), host_stop(g), host_start(other),
+             remote(g, halt), agent_dispose(x), agent_create(x, _),
+             deliver(x), undeliver(x), call(user:true), call(call, halt),
+             call(call(call), shell, x), call(',', true, halt),
+             call((',')/2, true), apply(halt, []), not(halt), phrase(halt, []),
+             phrase({halt}, []), phrase(user:x, []), call_cleanup(true, halt),
+             setup_call_cleanup(true, true, halt),
+             with_output_to(string(_), halt), (sleep(1, 2, 3) ; consult(x)),
+             print_message(error, format("~@", [halt])) ]).
 
 refused(Goal) :-
     \+ \+ lets_in_no(Goal),
@@ -255,6 +158,8 @@ outcome(Clauses, Outcome) :-
 
 :- begin_tests(guard).
 
+:- meta_predicate with_place(+, 0).
+
 test(each_attack_is_refused, Through == []) :-
     with_hosts([g-[policy(guarded), cell(none)]],
                capturing(findall(G, limit(1, ( attack(G), \+ refused(G) )),
@@ -270,59 +175,93 @@ test(constructed_goals_are_checked, Escaped-Count == 0-many) :-
     flag(typhon_guard_escaped, Escaped, 0),
     ( Goals = [_,_,_|_] -> Count = many ; Count = few ).
 
-%   Permitted goals run.
+%   ran(-Name, -Clauses, -Result): what an agent of Clauses that begins on g, or
+%   on t if it has to arrive, gives.
 
-test(ordinary_programs_run, R-Facts == [2-a,4-b]-[ok]) :-
-    with_hosts([g-[policy(guarded), cell(none)], t],
-               ( create([ (main :- assertz(s(ok)), numlist(1, 4, Ns),
-                                   include([X]>>(0 is X mod 2), Ns, Even),
-                                   pairs_keys_values(Ps, Even, [a,b]),
-                                   each(go, [t,g]), findall(F, s(F), Fs),
-                                   result(Ps-Fs)),
-                          each(_, []),
-                          (each(G, [X|Xs]) :- call(G, X), each(G, Xs)),
-                          (go(H) :- sleep(0.001), move(H)) ], A, [host(g)]),
-                 agent_result(A, R-Facts, 5) )).
-test(move_inside_a_constructed_goal, H == H0) :-
-    with_hosts([g-[policy(guarded), cell(none)], t],
-               ( address(g, H0),
-                 create([ (main :- G = (move(t), move(g)), call(G), here(H),
-                                   result(H)) ], A, [host(t)]),
-                 agent_result(A, H, 5) )).
-test(carried_clauses_are_checked_on_arrival,
-     R = error(move_refused(_, policy(halt)), _)) :-
-    with_hosts([g-[policy(guarded), cell(none)], t],
-               ( create([ (main :- assertz((s(_) :- halt)),
-                                   catch(move(g), E, true), result(E)) ],
-                        A, [host(t)]),
-                 agent_result(A, R, 5) )).
-test(pending_goals_are_checked_on_arrival,
-     R = error(move_refused(_, policy(shell(x))), _)) :-
-    with_hosts([g-[policy(guarded), cell(none)], t],
-               ( create([ (main :- G = (move(g), shell(x)),
-                                   catch(call(G), E, true), result(E)) ],
-                        A, [host(t)]),
-                 agent_result(A, R, 5) )).
+ran(ordinary, g,
+    [ (main :- assertz(s(ok)), numlist(1, 4, Ns),
+               include([X]>>(0 is X mod 2), Ns, Even),
+               pairs_keys_values(Ps, Even, [a,b]), each(go, [t,g]),
+               findall(F, s(F), Fs), result(Ps-Fs)),
+      each(_, []),
+      (each(G, [X|Xs]) :- call(G, X), each(G, Xs)),
+      (go(H) :- sleep(0.001), move(H)) ], [2-a,4-b]-[ok]).
+ran(moves_inside_a_constructed_goal, t,
+    [ (main :- G = (move(t), move(g)), call(G), here(H),
+               sub_atom(H, 0, 2, _, Start), result(Start)) ], 'g@').
+ran(carried_clauses_are_checked, t,
+    [ (main :- assertz((s(_) :- halt)), catch(move(g), E, true),
+               result(E)) ], error(move_refused(_, policy(halt)), _)).
+ran(pending_goals_are_checked, t,
+    [ (main :- G = (move(g), shell(x)), catch(call(G), E, true), result(E)) ],
+    error(move_refused(_, policy(shell(x))), _)).
+
+guarded([g-[policy(guarded), cell(none)], t]).
+
+test(permitted_goals_run,
+     [forall(ran(_, Host, Clauses, Expected)), true(Result = Expected)]) :-
+    guarded(Hosts),
+    with_hosts(Hosts, ( create(Clauses, A, [host(Host)]),
+                        agent_result(A, Result, 5) )).
+
+%   A place with the service open/1, and what an agent of Body gives there.
+
+with_place(Options, Goal) :-
+    with_tmp_dir(Dir,
+        ( directory_file_path(Dir, 'place.pl', File),
+          write_file(File, ":- service(open/1).~n:- dynamic open/1.~n\c
+                            open(1).~nopen(2).~nhidden(1).~n", []),
+          with_hosts([g-[policy(guarded), cell(none), consult(File)|Options]],
+                     capturing(Goal, _)) )).
+
 test(only_services_of_the_place_are_callable, Rs == [open(1),hidden]) :-
-    with_tmp_dir(places(Rs)).
+    with_place([],
+               ( create([ (main :- once(open(X)),
+                                   catch(( hidden(_), Y = seen ), _,
+                                         Y = hidden),
+                                   result([open(X),Y])) ], A, [host(g)]),
+                 agent_result(A, Rs, 5) )).
+
+%   Twice in a second, each time with two answers.
+
 test(service_calls_are_limited,
-     Rs = done-raised(error(resource_error(calls(open/1)), _))) :-
-    with_tmp_dir(often(Rs)).
+     [true(Often-More = done-raised(error(resource_error(calls(open/1)), _)))]) :-
+    with_place([quota([owner(calls(open/1, 2))])],
+               ( outcome([ (main :- forall(open(_), true),
+                                    forall(open(_), true)) ], Often),
+                 outcome([ (main :- repeat, catch(open(_), _, true),
+                                    fail) ], More) )).
+
 %   The agent's own predicate of that name precedes the service.
 
-test(services_cannot_be_changed_or_read, Rs == [[],[],[],[x],[x]]-[1,2]) :-
-    with_tmp_dir(changes_of_services(Rs)).
-test(rules_in_a_file, Os == [done,refused]) :-
-    with_tmp_dir(by_rules(Os)).
-test(check_reports_refusals_beforehand, Ms = [_]) :-
-    capturing(\+ agent_check(clauses([(:- agent(x, [])), (main :- halt)]),
-                             [policy(guarded)]),
-              Ms0),
-    findall(W, member(error-typhon(not_let_in(W, _)), Ms0), Ms).
-test(check_of_admissible_programs) :-
-    capturing(agent_check(clauses([(:- agent(x, [])), (main :- self(_))]),
-                          [policy(guarded)]),
-              _).
+test(services_cannot_be_changed_or_read, Rs-Left == [[],[],[],[x],[x]]-[1,2]) :-
+    with_place([],
+               ( create([ (main :- once(open(_)), Gs = [ retract(open(1)),
+                                       clause(open(_), _),
+                                       retract(hidden(_)),
+                                       retractall(open(_)),
+                                       assertz(open(9)) ],
+                                   findall(R, ( member(G, Gs),
+                                                findall(x, catch(G, _, fail),
+                                                        R) ), Rs0),
+                                   result(Rs0)) ], A, [host(g)]),
+                 agent_result(A, Rs, 5),
+                 remote(g, findall(X, open(X), Left)) )).
+test(rules_in_a_file, [O1,O2] == [done,refused]) :-
+    with_tmp_dir(Dir,
+        ( directory_file_path(Dir, rules, File),
+          write_file(File, "allow(current_op/3).~nrefuse(send/2).~n", []),
+          with_hosts([g-[policy(File), cell(none)]],
+                     ( outcome([(main :- once(current_op(_, _, mod)))], O1),
+                       catch(outcome([(main :- send(user, x))], O2),
+                             error(move_refused(_, policy(send(_, _))), _),
+                             O2 = refused) )) )).
+test(check_reports_refusals_beforehand,
+     [forall(member(Goal-Count, [halt-1, self(_)-0])), true(Said == Count)]) :-
+    capturing(ignore(agent_check(clauses([(:- agent(x, [])), (main :- Goal)]),
+                                 [policy(guarded)])), Ms),
+    findall(W, member(error-typhon(not_let_in(W, _)), Ms), Ws),
+    length(Ws, Said).
 test(changed_policy_applies_from_now_on,
      O = error(move_refused(_, policy(halt)), _)) :-
     with_hosts([g-[cell(none)]],
@@ -332,61 +271,6 @@ test(no_such_policy, error(existence_error(_, _))) :-
     host_start(g, [policy('/no/such/file')]).
 
 :- end_tests(guard).
-
-place_file(Dir, File) :-
-    directory_file_path(Dir, 'place.pl', File),
-    write_file(File, ":- service(open/1).~n:- dynamic open/1.~n~w",
-                     ["open(1).\nopen(2).\nhidden(1).\n"]).
-
-places(Rs, Dir) :-
-    place_file(Dir, File),
-    with_hosts([g-[policy(guarded), cell(none), consult(File)]],
-               ( create([ (main :- once(open(X)),
-                                   catch(( hidden(_), Y = seen ), _,
-                                         Y = hidden),
-                                   result([open(X),Y])) ], A, [host(g)]),
-                 agent_result(A, Rs, 5) )).
-
-%   Twice in a second, each time with two answers.
-
-often(Often-Outcome, Dir) :-
-    place_file(Dir, File),
-    with_hosts([g-[ policy(guarded), cell(none), consult(File),
-                    quota([owner(calls(open/1, 2))]) ]],
-               ( created([ (main :- forall(open(_), true),
-                                    forall(open(_), true)) ], A),
-                 agent_join(A, Often, 5),
-                 created([ (main :- repeat, catch(open(_), _, true), fail) ], B),
-                 capturing(agent_join(B, Outcome, 5), _) )).
-
-created(Clauses, A) :-
-    create(Clauses, A, [host(g)]).
-
-changes_of_services(Rs-Left, Dir) :-
-    place_file(Dir, File),
-    with_hosts([g-[policy(guarded), cell(none), consult(File)]],
-               ( create([ (main :- once(open(_)), Gs = [ retract(open(1)),
-                                       clause(open(_), _),
-                                       retract(hidden(_)),
-                                       retractall(open(_)),
-                                       assertz(open(9)) ],
-                                   findall(R, ( member(G, Gs),
-                                                findall(x, catch(G, _, fail),
-                                                        R) ), Rs),
-                                   result(Rs)) ], A, [host(g)]),
-                 agent_result(A, Rs, 5),
-                 findall(X, remote(g, open(X)), Firsts),
-                 remote(g, findall(X, open(X), Left)),
-                 Firsts == [1] )).
-
-by_rules([O1,O2], Dir) :-
-    directory_file_path(Dir, rules, File),
-    write_file(File, "allow(current_op/3).~nrefuse(send/2).~n", []),
-    with_hosts([g-[policy(File), cell(none)]],
-               ( outcome([(main :- once(current_op(_, _, mod)))], O1),
-                 catch(outcome([(main :- send(user, x))], O2),
-                       error(move_refused(_, policy(send(_, _))), _),
-                       O2 = refused) )).
 
                 /*******************************
                 *            QUOTAS            *
@@ -450,6 +334,12 @@ quota_of(inferences, [inferences(100 000),seconds(60)|Quotas]) :-
     quotas(Quotas).
 quota_of(_, [seconds(60)|Quotas]) :- quotas(Quotas).
 
+%   On a host with Quotas, Outcome is that of an agent of Clauses.
+
+on_quota(Quotas, Clauses, Outcome) :-
+    with_hosts([g-[policy(guarded), cell(none), quota(Quotas)]],
+               capturing(outcome(Clauses, Outcome), _)).
+
 is_of(What, What).
 is_of(tripwire(max_integer_size, _), stack).    % in 9.2
 
@@ -460,9 +350,7 @@ is_of(tripwire(max_integer_size, _), stack).    % in 9.2
 test(endless_findall_exceeds_a_quota,
      true(memberchk(What, [seconds, stack]))) :-
     quota_of(seconds, Quotas),
-    with_hosts([g-[policy(guarded), cell(none), quota(Quotas)]],
-               capturing(outcome([ (main :- findall(X, between(1, inf, X), _)) ],
-                                 Outcome), _)),
+    on_quota(Quotas, [(main :- findall(X, between(1, inf, X), _))], Outcome),
     Outcome = raised(error(resource_error(What), _)).
 %   An agent that catches the interrupt cannot continue by any goal.
 
@@ -470,10 +358,7 @@ test(caught_interrupt_ends_the_agent_at_once, [ forall(stays(Clauses)),
                                                 true(Seconds < 3) ]) :-
     quota_of(seconds, Quotas),
     get_time(T0),
-    with_hosts([g-[policy(guarded), cell(none), quota(Quotas)]],
-               capturing(outcome(Clauses,
-                                 raised(error(resource_error(seconds), _))),
-                         _)),
+    on_quota(Quotas, Clauses, raised(error(resource_error(seconds), _))),
     get_time(T1),
     Seconds is T1-T0.
 %   An agent that repeatedly fills its stack to the limit would end the
@@ -484,15 +369,11 @@ test(stack_is_limited,
      [ forall(brim(Clauses)), setup(stack_limit(Old, 60 000 000)),
        cleanup(set_prolog_flag(stack_limit, Old)),
        Outcome = raised(error(resource_error(stack), _)) ]) :-
-    with_hosts([g-[ policy(guarded), cell(none),
-                    quota([seconds(60), stack(64 000 000)]) ]],
-               capturing(outcome(Clauses, Outcome), _)).
+    on_quota([seconds(60), stack(64 000 000)], Clauses, Outcome).
 test(exceeding_a_quota_ends_the_agent,
      [ forall(hog(What, Clauses)), true(is_of(Resource, What)) ]) :-
     quota_of(What, Quotas),
-    with_hosts([g-[policy(guarded), cell(none), quota(Quotas)]],
-               capturing(outcome(Clauses, Outcome), _)),
-    Outcome = raised(error(resource_error(Resource), _)).
+    on_quota(Quotas, Clauses, raised(error(resource_error(Resource), _))).
 test(other_agents_continue, N == 20) :-
     quota_of(seconds, Quotas),
     with_hosts([g-[policy(guarded), cell(none), quota(Quotas)], t],

@@ -65,6 +65,8 @@ story(monitored_twice, [],
 story(unmonitored, [], [monitor(a), unmonitor(a), end(a), only([])]).
 story(monitored_again, [],
       [monitor(a), unmonitor(a), monitor(a), end(a), only([a-done])]).
+story(also_by_another_watcher, [],
+      [monitor(a), end(a), gets(a, done), watch(a), only([a-done])]).
 story(resumed, [],
       [monitor(a), end(a, s(_)), gets(a, failed), resume(a), only([a-failed])]).
 story(shares_its_end, [], [share(a), dispose(a), ended(w, disposed)]).
@@ -146,6 +148,11 @@ step(monitor(X), Ids)   => ordered(Ids, X, A, monitor(A)).
 step(share(X), Ids)     => ordered(Ids, X, A, monitor(A, [shared(true)])).
 step(follow(X), Ids)    => ordered(Ids, X, A, monitor(A, [shared(self)])).
 step(unmonitor(X), Ids) => ordered(Ids, X, A, unmonitor(A)).
+step(watch(X), Ids) =>
+    memberchk(X-A, Ids),
+    watcher(V, []),
+    monitors(V, A),
+    receives(V, down(A, _)).
 step(X/P, Ids) =>
     memberchk(X-A, Ids),
     at(P, Host),
