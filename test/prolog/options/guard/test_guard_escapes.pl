@@ -51,12 +51,26 @@ is_refused(raised(error(resource_error(tripwire(_, _)), _))).   % 9.2.9
 %   these ways.
 
 let_through(Goals, Through) :-
-    findall(Goal-Outcome,
-            ( member(Goal, Goals),
-              ways(Goal, Clauses),
-              outcome(Clauses, Outcome),
-              \+ is_refused(Outcome) ),
-            Through).
+    on_hosts(findall(Goal-Outcome,
+                     ( member(Goal, Goals),
+                       ways(Goal, Clauses),
+                       outcome(Clauses, Outcome),
+                       \+ is_refused(Outcome) ),
+                     Through)).
+
+%   Agents have rules on g, and none on t.
+
+:- meta_predicate on_hosts(0).
+
+on_hosts(Goal) :-
+    guarded(Spec),
+    with_hosts([Spec, t], capturing(Goal, _)).
+
+guarded(g-[policy(guarded), cell(none)]).
+
+gives(Clauses, Result) :-
+    guarded(Spec),
+    result_on([Spec], Clauses, Result).
 
                 /*******************************
                 *         FORMAT STRINGS       *
@@ -64,32 +78,12 @@ let_through(Goals, Through) :-
 
 %   Modifiers, counts and characters before directives that call or print.
 
-calling_format("~@").
-calling_format("~:@").
-calling_format("~3:@").
-calling_format("~`x:@").
-calling_format("~`x@").
-calling_format("~`~@").
-calling_format("~::@").
-calling_format("~1234@").
-calling_format("~w~:@").
-calling_format("~~~:@").
-calling_format("~p").
-calling_format("~:p").
-calling_format("~:i~@").
-calling_format("~i~@").
-calling_format("~*@").
-calling_format("~*c~@").
-calling_format("~:d~@").
-calling_format('~:@').
-calling_format(`~:@`).
-calling_format(['~', :, '@']).
-calling_format("~\u0663:@").
-calling_format("~\u06633@").
-calling_format("~k").
-calling_format("~").
-calling_format("~`").
-calling_format("~`x").
+calling_format(Format) :-
+    member(Format,
+           [ "~@", "~:@", "~3:@", "~`x:@", "~`x@", "~`~@", "~::@", "~1234@",
+             "~w~:@", "~~~:@", "~p", "~:p", "~:i~@", "~i~@", "~*@", "~*c~@",
+             "~:d~@", '~:@', `~:@`, ['~', :, '@'], "~\u0663:@", "~\u06633@",
+             "~k", "~", "~`", "~`x" ]).
 
 calling(format(Sink, Format, [Harm, Harm])) :-
     harm(Harm),
@@ -136,21 +130,15 @@ written('~w', x, "x").
 
 test(calling_formats_are_refused, Escaped-Through == 0-[]) :-
     findall(Goal, calling(Goal), Goals),
-    with_hosts([g-[policy(guarded), cell(none)], t],
-               capturing(escaped(let_through(Goals, Through), Escaped), _)).
+    escaped(let_through(Goals, Through), Escaped).
 test(harmless_formats_are_written,
      [forall(written(Format, Args, Text)), true(Result == Text)]) :-
-    with_hosts([g-[policy(guarded), cell(none)]],
-               ( create([(main :- format(string(S), Format, Args), result(S))],
-                        A, [host(g)]),
-                 agent_result(A, Result, 10) )).
+    gives([(main :- format(string(S), Format, Args), result(S))], Result).
 test(output_of_format_is_bounded,
      Outcome = raised(error(resource_error(clause_cells), _))) :-
     dag(Dag),
-    with_hosts([g-[policy(guarded), cell(none)]],
-               capturing(outcome([ (main :- dag(40, a, T),
-                                            format(string(_), "~w", [T]))
-                                 | Dag ], Outcome), _)).
+    on_hosts(outcome([ (main :- dag(40, a, T), format(string(_), "~w", [T]))
+                     | Dag ], Outcome)).
 
 :- end_tests(format_strings).
 
@@ -230,28 +218,22 @@ changing_program(Name, Clauses) :-
 %   setarg/3 is allowed here, so that only the copy protects the goal.
 
 test(checked_goal_is_the_executed_goal,
-     [forall(changing_program(Name, Clauses)), true(Escaped == 0-Name)]) :-
-    with_tmp_dir(changed(Clauses, Name, Escaped)).
+     [forall(changing_program(_, Clauses)), true(Escaped == 0)]) :-
+    with_tmp_dir(Dir,
+        ( directory_file_path(Dir, rules, File),
+          write_file(File, "allow(setarg/3).~n", []),
+          with_hosts([g-[policy(File), cell(none)], t],
+                     capturing(escaped(outcome(Clauses, _), Escaped), _)) )).
 test(destructive_assignment_is_refused, Through == []) :-
-    with_hosts([g-[policy(guarded), cell(none)], t],
-               capturing(let_through([ (X = f(a), setarg(1, X, b)),
-                                       (X = f(a), nb_setarg(1, X, b)),
-                                       (X = f(a), nb_linkarg(1, X, b)),
-                                       (dict_create(D, _, [a-1]),
-                                        b_set_dict(a, D, 2)),
-                                       (dict_create(D, _, [a-1]),
-                                        nb_set_dict(a, D, 2)),
-                                       (dict_create(D, _, [a-1]),
-                                        nb_link_dict(a, D, 2)) ],
-                                     Through), _)).
+    findall(( X = f(a), Goal ),
+            member(Goal, [ setarg(1, X, b), nb_setarg(1, X, b),
+                           nb_linkarg(1, X, b) ]), Goals, Dicts),
+    findall(( dict_create(D, _, [a-1]), Goal ),
+            member(Goal, [ b_set_dict(a, D, 2), nb_set_dict(a, D, 2),
+                           nb_link_dict(a, D, 2) ]), Dicts),
+    let_through(Goals, Through).
 
 :- end_tests(changed_goals).
-
-changed(Clauses, Name, Escaped-Name, Dir) :-
-    directory_file_path(Dir, rules, File),
-    write_file(File, "allow(setarg/3).~n", []),
-    with_hosts([g-[policy(File), cell(none)], t],
-               capturing(escaped(outcome(Clauses, _), Escaped), _)).
 
                 /*******************************
                 *          CONSTRUCTS          *
@@ -304,30 +286,22 @@ defining([ (main :- c(C), assertz(C), p), c((p :- @(Harm, user))) ]) :-
 
 test(constructs_are_no_calls, Escaped-Through == 0-[]) :-
     findall(Goal, construct(Goal), Goals),
-    with_hosts([g-[policy(guarded), cell(none)], t],
-               capturing(escaped(let_through(Goals, Through), Escaped), _)).
+    escaped(let_through(Goals, Through), Escaped).
 test(constructs_cannot_be_defined,
      [forall(defining(Clauses)), true(Escaped == 0)]) :-
-    with_hosts([g-[policy(guarded), cell(none)]],
-               capturing(escaped(outcome(Clauses, Outcome), Escaped), _)),
+    on_hosts(escaped(outcome(Clauses, Outcome), Escaped)),
     assertion(refused_or_unread(Outcome)).
 test(grammar_rules_are_called, R == [x,y]) :-
-    with_hosts([g-[policy(guarded), cell(none)]],
-               ( create([ (main :- phrase(ab(X, Y), [x,y]),
-                                   findall(x, phrase(ab(_, _), [x,y,z], _),
-                                           [_]),
-                                   result([X,Y])),
-                          (ab(A, B, [A,B|T], T) :- true) ], Agent, [host(g)]),
-                 agent_result(Agent, R, 10) )).
+    gives([ (main :- phrase(ab(X, Y), [x,y]),
+                     findall(x, phrase(ab(_, _), [x,y,z], _), [_]),
+                     result([X,Y])),
+            (ab(A, B, [A,B|T], T) :- true) ], R).
 test(facts_of_the_platform_stay, R == refused) :-
-    with_hosts([g-[policy(guarded), cell(none)]],
-               ( create([ (main :- c(C),
-                                   catch(( findall(x, retract(C), _),
-                                           result(removed) ),
-                                         error(permission_error(_, _, _), _),
-                                         result(refused))),
-                          c('$owner'(_)) ], A, [host(g)]),
-                 agent_result(A, R, 10) )).
+    gives([ (main :- c(C),
+                     catch(( findall(x, retract(C), _), result(removed) ),
+                           error(permission_error(_, _, _), _),
+                           result(refused))),
+            c('$owner'(_)) ], R).
 
 :- end_tests(constructs).
 
@@ -357,21 +331,14 @@ hiding(Clause, [ (main :- move(g), catch(p(1), _, true)), Clause ]).
 
 test(rule_is_not_accepted_as_a_fact, [Escaped-Through == 0-[]]) :-
     findall(Clause-Clauses, ( hidden(Clause), hiding(Clause, Clauses) ), All),
-    with_hosts([g-[policy(guarded), cell(none)], t],
-               capturing(escaped(findall(Clause-Outcome,
-                                         ( member(Clause-Clauses, All),
-                                           outcome(Clauses, Outcome),
-                                           \+ refused_or_unread(Outcome) ),
-                                         Through),
-                                 Escaped), _)).
+    on_hosts(escaped(findall(Clause-Outcome,
+                             ( member(Clause-Clauses, All),
+                               outcome(Clauses, Outcome),
+                               \+ refused_or_unread(Outcome) ),
+                             Through), Escaped)).
 test(rule_is_not_accepted_as_a_state_fact, [Escaped-Through == 0-[]]) :-
-    findall(Clause, hidden(Clause), Clauses),
-    with_hosts([g-[policy(guarded), cell(none)]],
-               capturing(escaped(findall(Clause,
-                                         ( member(Clause, Clauses),
-                                           comes_with(Clause) ),
-                                         Through),
-                                 Escaped), _)).
+    on_hosts(escaped(findall(Clause, ( hidden(Clause), comes_with(Clause) ),
+                             Through), Escaped)).
 test(rules_of_a_service_are_protected, R == kept) :-
     with_tmp_dir(service_rules(R)).
 
@@ -462,26 +429,16 @@ come(by_order, Hash, Sent) :-
 
 %   storing(-Body): T is small, and 2^60 parts when it is written out.
 
-storing(receive(_-T, 0.1), T).
-storing(receive(T), T).
-storing(sleep(T), T).
-storing(move(T), T).
-storing((sleep(0.001), hit(T)), T).
-storing((self(Me), send(Me, x), receive(_), hit(T)), T).
-storing((clone(_), hit(T)), T).
-storing((clone(T, _), hit(T)), T).
-storing((hit(T), fail), T).
-storing((hit(T), throw(x), hit(T)), T).
-storing((hit(T), X is foo+T, hit(X)), T).
-storing(miss(T), T).
-storing(throw(error(T, _)), T).
-storing(result(T), T).
-storing(enter(T), T).
-storing(emit(T), T).
-storing(message_failed(x, T), T).
-storing(message_failed(T, x), T).
-storing(assertz(s(T)), T).
-storing((catch(sleep(T), _, sleep(T)), hit(T)), T).
+storing(Body, T) :-
+    member(Body,
+           [ receive(_-T, 0.1), receive(T), sleep(T), move(T),
+             (sleep(0.001), hit(T)),
+             (self(Me), send(Me, x), receive(_), hit(T)), (clone(_), hit(T)),
+             (clone(T, _), hit(T)), (hit(T), fail), (hit(T), throw(x), hit(T)),
+             (hit(T), X is foo+T, hit(X)), miss(T), throw(error(T, _)),
+             result(T), enter(T), emit(T), message_failed(x, T),
+             message_failed(T, x), assertz(s(T)),
+             (catch(sleep(T), _, sleep(T)), hit(T)) ]).
 
 storing_program(Clauses) :-
     storing(Body, T),
@@ -507,27 +464,20 @@ too_large(raised(error(permission_error(call, sandboxed, throw/1), _))).
 
 test(shared_terms_are_not_stored,
      [forall(storing_program(Clauses)), true(too_large(Outcome))]) :-
-    with_hosts([g-[policy(guarded), cell(none)]],
-               capturing(( create(Clauses, A, [host(g)]),
-                           agent_join(A, Outcome, 10) ), _)).
+    on_hosts(( create(Clauses, A, [host(g)]), agent_join(A, Outcome, 10) )).
 test(other_agents_are_not_delayed, R == ok) :-
     dag(Dag),
-    with_hosts([g-[policy(guarded), cell(none)]],
-               capturing(( create([ (main :- dag(60, a, T), receive(_-T, 1))
-                                  | Dag ], A, [host(g)]),
-                           create([(main :- sleep(0.01), result(ok))], B,
-                                  [host(g)]),
-                           agent_result(B, R, 10),
-                           agent_join(A, raised(_), 10) ), _)).
+    on_hosts(( create([ (main :- dag(60, a, T), receive(_-T, 1)) | Dag ], A,
+                      [host(g)]),
+               create([(main :- sleep(0.01), result(ok))], B, [host(g)]),
+               agent_result(B, R, 10),
+               agent_join(A, raised(_), 10) )).
+
 %   Large data may be in goals that are not stored.
 
 test(goal_with_a_large_argument_runs, R == 300 000) :-
-    with_hosts([g-[policy(guarded), cell(none)]],
-               ( create([ (main :- numlist(1, 300 000, L), G = count(L),
-                                   call(G)),
-                          (count(L) :- length(L, N), result(N)) ],
-                        A, [host(g)]),
-                 agent_result(A, R, 20) )).
+    gives([ (main :- numlist(1, 300 000, L), G = count(L), call(G)),
+            (count(L) :- length(L, N), result(N)) ], R).
 
 :- end_tests(shared_terms).
 
@@ -550,18 +500,13 @@ huge(Goal) :-
 
 test(term_size_is_bounded, Through == []) :-
     findall(Goal, huge(Goal), Goals),
-    with_hosts([g-[policy(guarded), cell(none)], t],
-               capturing(let_through(Goals, Through), _)).
+    let_through(Goals, Through).
 test(terms_of_allowed_size_are_made,
      true(subsumes_term([f(_,_), a, 3, g(_), [f,1]], R))) :-
-    with_hosts([g-[policy(guarded), cell(none)]],
-               ( create([ (main :- functor(A, f, 2), functor(B, a, 0),
-                                   functor(x(1,2,3), _, C),
-                                   compound_name_arity(D, g, 1),
-                                   f(1) =.. E, length(E, 2), length([x], 1),
-                                   result([A,B,C,D,E])) ],
-                        Agent, [host(g)]),
-                 agent_result(Agent, R, 10) )).
+    gives([ (main :- functor(A, f, 2), functor(B, a, 0),
+                     functor(x(1,2,3), _, C), compound_name_arity(D, g, 1),
+                     f(1) =.. E, length(E, 2), length([x], 1),
+                     result([A,B,C,D,E])) ], R).
 
 :- end_tests(huge_terms).
 
@@ -627,15 +572,14 @@ long_atom(Goal) :-
           error(_, _), fail),
     has_long_atom(Goal).
 
-text_attack(setrand(seed(1))).
-text_attack(setrand(1)).
-text_attack(getrand(_)).
-text_attack(term_to_atom(_, `{|html||x|}`)).
-text_attack(term_to_atom(_, ['{', '|', h, '|', '|', x, '|', '}'])).
-text_attack(term_string(_, `{|html||x|}`)).
-text_attack(term_string(_, "{|html||x|}")).
-text_attack(atom_to_term(`{|html||x|}`, _, _)).
-text_attack(atom_to_term(['{', '|', h, '|', '|', x, '|', '}'], _, _)).
+text_attack(Goal) :-
+    member(Goal,
+           [ setrand(seed(1)), setrand(1), getrand(_),
+             term_to_atom(_, `{|html||x|}`),
+             term_to_atom(_, ['{', '|', h, '|', '|', x, '|', '}']),
+             term_string(_, `{|html||x|}`), term_string(_, "{|html||x|}"),
+             atom_to_term(`{|html||x|}`, _, _),
+             atom_to_term(['{', '|', h, '|', '|', x, '|', '}'], _, _) ]).
 text_attack(Goal) :-
     long_text(1001, Text),
     string_codes(Text, Codes),
@@ -690,10 +634,9 @@ long_atom_900(Long) :-
 
 test(long_atoms_are_refused, Through == []) :-
     findall(Goal, text_attack(Goal), Goals),
-    with_hosts([g-[policy(guarded), cell(none)], t],
-               capturing(let_through(Goals, Through), _)).
+    let_through(Goals, Through).
 test(no_predicate_makes_long_atoms, Goals == []) :-
-    with_hosts([g-[policy(guarded), cell(none)]], true),    % the tables are made
+    on_hosts(true),                     % the tables are made
     findall(Name/Arity, ( long_atom(Goal), functor(Goal, Name, Arity) ),
             Goals0),
     sort(Goals0, Goals).
@@ -717,15 +660,10 @@ test(collected_text_does_not_count, Outcome == done) :-
                                                retract(s(A))),
                                    long(Long) ], Outcome), _)).
 test(short_texts_pass, R == ['ABC', bc, 'a,b', f(x), "f(x)", 12]) :-
-    with_hosts([g-[policy(guarded), cell(none)]],
-               ( create([ (main :- upcase_atom(abc, A),
-                                   sub_atom(abc, 1, 2, _, B),
-                                   atomic_list_concat([a,b], ',', C),
-                                   term_to_atom(D, 'f(x)'),
-                                   term_string(f(x), E),
-                                   atom_number('12', F),
-                                   result([A,B,C,D,E,F])) ], A, [host(g)]),
-                 agent_result(A, R, 10) )).
+    gives([ (main :- upcase_atom(abc, A), sub_atom(abc, 1, 2, _, B),
+                     atomic_list_concat([a,b], ',', C), term_to_atom(D, 'f(x)'),
+                     term_string(f(x), E), atom_number('12', F),
+                     result([A,B,C,D,E,F])) ], R).
 
 :- end_tests(texts).
 
@@ -750,39 +688,29 @@ ends(dispose(A, [force(0)]), A).
 :- begin_tests(files_and_agents).
 
 test(no_file_is_read_for_an_agent, Through == []) :-
-    with_tmp_dir(read_by_agents(Through)).
+    with_tmp_dir(Dir,
+        ( directory_file_path(Dir, secret, File),
+          write_file(File, ":- payload(x, [provides([s/1])]).~ns(1).~n", []),
+          findall(Goal, reads(Goal, File), Goals),
+          let_through(Goals, Through) )).
 test(agent_cannot_end_others, Through-State == []-waiting) :-
-    with_hosts([g-[policy(guarded), cell(none)], t],
-               ( create([(main :- receive(_))], A, [host(t)]),
-                 wait_state(A, waiting),
-                 findall(Goal, ends(Goal, A), Goals),
-                 capturing(let_through(Goals, Through), _),
-                 agent_property(A, state(State)) )).
+    with_hosts([u], ( create([(main :- receive(_))], A, [host(u)]),
+                      wait_state(A, waiting),
+                      findall(Goal, ends(Goal, A), Goals),
+                      let_through(Goals, Through),
+                      agent_property(A, state(State)) )).
 test(agent_ends_its_followers, Outcome == disposed) :-
-    with_hosts([g-[policy(guarded), cell(none)]],
-               ( create([ (main :- create(clauses([ (:- agent(b, [])),
-                                                    (main :- receive(_)) ]),
-                                          B, [follows(true)]),
-                                   dispose(B), result(B)) ], A, [host(g)]),
-                 agent_result(A, B, 10),
-                 agent_join(B, Outcome, 10) )).
+    on_hosts(( create([ (main :- create(clauses([ (:- agent(b, [])),
+                                                  (main :- receive(_)) ]),
+                                        B, [follows(true)]),
+                                 dispose(B), result(B)) ], A, [host(g)]),
+               agent_result(A, B, 10),
+               agent_join(B, Outcome, 10) )).
 test(library_typhon_is_the_vocabulary,
      Formal == existence_error(procedure, agent_dispose/1)) :-
-    with_hosts([g-[policy(guarded), cell(none)]],
-               ( create([ (:- use_module(library(typhon))),
-                          (main :- self(Me),
-                                   catch(agent_dispose(Me), error(F, _), true),
-                                   F = existence_error(K, PI0),
-                                   PI0 = _:PI,
-                                   result(existence_error(K, PI))) ],
-                        A, [host(g)]),
-                 agent_result(A, Formal, 10) )).
+    gives([ (:- use_module(library(typhon))),
+            (main :- self(Me), catch(agent_dispose(Me), error(F, _), true),
+                     F = existence_error(K, _:PI),
+                     result(existence_error(K, PI))) ], Formal).
 
 :- end_tests(files_and_agents).
-
-read_by_agents(Through, Dir) :-
-    directory_file_path(Dir, secret, File),
-    write_file(File, ":- payload(x, [provides([s/1])]).~ns(1).~n", []),
-    findall(Goal, reads(Goal, File), Goals),
-    with_hosts([g-[policy(guarded), cell(none)], t],
-               capturing(let_through(Goals, Through), _)).
