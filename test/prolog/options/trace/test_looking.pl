@@ -4,31 +4,28 @@
 % level.
 
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/fixtures', [with_hosts/2]).
+:- use_module('../../../lib/networks').
 :- use_module('../../../lib/texts').
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists), [last/2, member/2]).
+:- use_module(library(lists), [append/3, last/2, member/2]).
 :- use_module(library(plunit)).
 :- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(library(yall)).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/tools/source_view/variable_names),
               [goals_places/3]).
 
 %   two(:Goal): with hosts alpha and beta, in virtual time.
 
-:- meta_predicate two(0), prints(0, -), in_network(+, 1).
+:- meta_predicate two(0), prints(0, -), in_network(1).
 
 two(Goal) :-
-    no_leaks(setup_call_cleanup(
-                 ( host_start(alpha, [clock(virtual)]),
-                   host_start(beta, [clock(virtual)]) ),
-                 once(Goal),
-                 ( host_stop(alpha), host_stop(beta) ))).
+    with_hosts([alpha-[clock(virtual)], beta-[clock(virtual)]], Goal).
 
-in_network(Options, Goal) :-
-    no_leaks(setup_call_cleanup(
-                 network_start(edges([1-2]), Network, Options),
-                 once(call(Goal, Network)),
-                 network_stop(Network))).
+in_network(Goal) :-
+    with_network(edges([1-2]), [processes(2)], _, [Here, There],
+                 call(Goal, Here-There)).
 
 %   In virtual time others run while a caller waits.
 
@@ -79,22 +76,25 @@ traveller_on(Host, Agent) :-
     traveller(Program),
     agent_create(clauses(Program), Agent, [host(Host)]).
 
+%   goes(-Goal, -Program): does Goal when it gets a message.
+
+goes(Goal, [(:- agent(a, [])), (main :- receive(_), Goal)]).
+
 goals(Said, Goals) :-
     findall(Goal, member(held(_, Goal), Said), Goals).
 
-:- meta_predicate with_named_program(-, 0).
-
 with_named_program(File, Goal) :-
-    with_tmp_dir(test_looking:named_program(File, Goal)).
+    with_tmp_dir(Dir,
+        ( directory_file_path(Dir, 'tourist.pl', File),
+          write_file(File, ":- agent(tourist, []).~n~n\c
+                            main :- receive(_-go(Hosts)), tour(Hosts),~n\c
+                                    home(Home), move(Home).~n~n\c
+                            tour([]).~n\c
+                            tour([Host|Hosts]) :- move(Host), tour(Hosts).~n",
+                     []),
+          once(Goal) )).
 
-named_program(File, Goal, Dir) :-
-    directory_file_path(Dir, 'tourist.pl', File),
-    write_file(File, ":- agent(tourist, []).~n~n\c
-                      main :- receive(_-go(Hosts)), tour(Hosts),~n\c
-                              home(Home), move(Home).~n~n\c
-                      tour([]).~n\c
-                      tour([Host|Hosts]) :- move(Host), tour(Hosts).~n", []),
-    once(Goal).
+:- meta_predicate with_named_program(-, 0).
 
 :- begin_tests(listing).
 
@@ -129,15 +129,14 @@ test(goal_in_a_condition) :-
     shows(Text, "% facts\n\nseen(2).").
 
 test(agent_in_another_process) :-
-    in_network([processes(2)], elsewhere(Text)),
+    in_network(elsewhere(Text)),
     shows(Text, "on n2@"),
     shows(Text, "main :-\n=>  receive(_).").
 
-elsewhere(Text, Network) :-
-    network_property(Network, hosts([_, Host])),
-    agent_create(clauses([ (:- agent(a, [])), (main :- receive(_), true) ]),
-                 A, [host(Host)]),
-    wait_until(agent_property(A, state(waiting)), 5),
+elsewhere(Text, _-Host) :-
+    goes(true, Program),
+    agent_create(clauses(Program), A, [host(Host)]),
+    waits(A),
     listing_of(A, Text).
 
 %   A program that was read from a file has names of variables.
@@ -146,7 +145,7 @@ test(names_of_variables) :-
     two(named_on(alpha, rests, Text)),
     forall(named_part(Part), assertion(shows(Text, Part))).
 test(names_of_variables_in_another_process) :-
-    in_network([processes(2)], named_elsewhere(Text)),
+    in_network(named_elsewhere(Text)),
     forall(named_part(Part), assertion(shows(Text, Part))).
 
 named_part("=>  receive(_-go(Hosts)),\n    tour(Hosts),\n    home(Home),").
@@ -154,8 +153,7 @@ named_part("tour([Host|Hosts]) :-\n    move(Host),\n    tour(Hosts).").
 named_part("% goals left\n:- receive(_-go(Hosts)),\n   tour(Hosts),\n\c
            \u0020  home(Home),\n   move(Home).").
 
-named_elsewhere(Text, Network) :-
-    network_property(Network, hosts([_, Host])),
+named_elsewhere(Text, _-Host) :-
     named_on(Host, waits, Text).
 
 rests(_) :-
@@ -199,106 +197,90 @@ clauses([ (a :- b, move(x), c, d),
           (n :- move(y)),
           (o :- p, move(z)) ]).
 
-stands(Goals, Places) :-
-    clauses(Clauses),
-    goals_places(Clauses, Goals, Places).
+%   stands(-Goals, -Places): the goals that are left, and the calls in the
+%   clauses where an agent may be that has them.
 
-test(goals_match_at_the_unbound_goal) :-
-    stands([_, c, d, rest], [1-2]).
-test(identical_goals) :-
-    stands([c, d, rest], [1-3, 2-1]).
+stands([_, c, d, rest], [1-2]).
+stands([c, d, rest], [1-3, 2-1]).
+stands([( sleep_until(3.0), h -> c ; d ), i], [3-1]).
+stands([( c, d, h -> c ; d ), i], [1-3, 2-1]).
+stands([( z, h -> c ; d ), i], [3-1]).
+stands([catch(( sleep_until(3.0), l ), _, m)], [4-1]).
+stands([x, y], []).
+stands([], []).
+
+test(goals_have_places, [forall(stands(Goals, Places)), true(Ps == Places)]) :-
+    clauses(Clauses),
+    goals_places(Clauses, Goals, Ps).
 test(last_goal, Places == [5-1, 6-2]) :-
-    stands([_], Places0),
+    clauses(Clauses),
+    goals_places(Clauses, [_], Places0),
     findall(N-I, ( member(N-I, Places0), memberchk(N, [5, 6]) ), Places).
-test(goal_within_a_condition) :-
-    stands([( sleep_until(3.0), h -> c ; d ), i], [3-1]).
-test(goal_called_by_a_condition) :-
-    stands([( c, d, h -> c ; d ), i], [1-3, 2-1]).
-test(same_goal_outside_the_condition) :-
-    stands([( z, h -> c ; d ), i], [3-1]).
-test(caught_goal) :-
-    stands([catch(( sleep_until(3.0), l ), _, m)], [4-1]).
-test(no_matching_goal) :-
-    stands([x, y], []).
-test(no_goals_left) :-
-    stands([], []).
 
 :- end_tests(listing).
 
 :- begin_tests(tracing).
 
-test(hops_and_messages) :-
-    two(prints(( traveller_on(alpha, A),
-                 agent_trace(A, [hops, messages]),
-                 agent_send(A, go(beta)),
-                 agent_join(A, done, 20) ), Said)),
-    Said = [ alpha-received(user, go(beta)), alpha-left(Beta),
-             beta-arrived(Alpha, _), beta-left(Alpha),
-             alpha-arrived(Beta, _), alpha-sent(user, home), home,
-             alpha-ended(done) ].
+%   traced(-Name, -Program, -Kinds, -Said): what is printed of an agent.
 
-test(goals) :-
-    two(prints(( traveller_on(alpha, A),
-                 agent_trace(A, [goals]),
+traced(hops_and_messages, Program, [hops, messages],
+       [ alpha-received(user, go(beta)), alpha-left(Beta),
+         beta-arrived(Alpha, _), beta-left(Alpha), alpha-arrived(Beta, _),
+         alpha-sent(user, home), home, alpha-ended(done) ]) :-
+    traveller(Program).
+traced(clones, Program, [hops],
+       [ alpha-created, alpha-cloned(_), alpha-ended(done),
+         alpha-ended(done) ]) :-
+    goes(clone(_), Program).
+traced(tuples, Program, [facts],
+       [alpha-leave(f(1)), alpha-take(f(1)), alpha-ended(done)]) :-
+    goes(( leave(f(1)), take(f(_)) ), Program).
+traced(refused_move, Program, [hops],
+       [alpha-left(Full), alpha-stayed(Full), alpha-ended(done)]) :-
+    goes(catch(move(full), _, true), Program).
+
+:- meta_predicate trip(+, 1, -).
+
+%   trip(+Program, :Goal, -Said): Goal is called with the agent before it goes.
+
+trip(Program, Goal, Said) :-
+    two(prints(( host_start(full, [clock(virtual), capacity(0)]),
+                 agent_create(clauses(Program), A, [host(alpha)]),
+                 call(Goal, A),
                  agent_send(A, go(beta)),
-                 agent_join(A, done, 20) ), Said)),
+                 agent_join(A, done, 20),
+                 later,
+                 host_stop(full) ), Said)).
+
+traces(Kinds, Agent) :-
+    agent_trace(Agent, Kinds).
+
+test(acts_are_printed,
+     [forall(traced(_, Program, Kinds, Expected)), true(Said = Expected)]) :-
+    trip(Program, traces(Kinds), Said).
+test(goals) :-
+    traveller(Program),
+    trip(Program, traces([goals]), Said),
     findall(G, member(beta-goal(G), Said), Goals),
     Goals = [ digit(_), 1>1, 2>1, assertz(seen(2)), sleeps, sleep(5), fail,
               home(_), move(_) ].
-
-test(no_reports_after_untrace) :-
-    two(prints(( traveller_on(alpha, A),
-                 agent_trace(A, [hops, goals]),
-                 agent_notrace(A),
-                 agent_send(A, go(beta)),
-                 agent_join(A, done, 20) ), Said)),
-    findall(What, member(_-What, Said), []).
-
-test(clones_are_traced) :-
-    two(prints(( agent_create(clauses([ (:- agent(a, [])),
-                                        (main :- receive(_), clone(_)) ]),
-                              A, [host(alpha)]),
-                 agent_trace(A, [hops]),
-                 agent_send(A, go),
-                 later ), Said)),
-    Said = [ alpha-created, alpha-cloned(_), alpha-ended(done),
-             alpha-ended(done) ].
-
-test(tuples_are_traced) :-
-    two(prints(( agent_create(clauses([ (:- agent(a, [])),
-                                        (main :- receive(_), leave(f(1)),
-                                                 take(f(_))) ]),
-                              A, [host(alpha)]),
-                 agent_trace(A, [facts]),
-                 agent_send(A, go),
-                 agent_join(A, done, 5) ), Said)),
-    Said = [ alpha-leave(f(1)), alpha-take(f(1)), alpha-ended(done) ].
-
-test(refused_move) :-
-    no_leaks(setup_call_cleanup(
-        ( host_start(alpha, [clock(virtual)]),
-          host_start(full, [clock(virtual), capacity(0)]) ),
-        prints(( agent_create(clauses([ (:- agent(a, [])),
-                                        (main :- receive(_),
-                                             catch(move(full), _, true)) ]),
-                              A, [host(alpha)]),
-                 agent_trace(A, [hops]),
-                 agent_send(A, go),
-                 agent_join(A, done, 5) ), Said),
-        ( host_stop(alpha), host_stop(full) ))),
-    Said = [ alpha-left(Full), alpha-stayed(Full), alpha-ended(done) ].
+test(no_reports_after_untrace, Said == [home]) :-
+    traveller(Program),
+    trip(Program, [A]>>( agent_trace(A, [hops, goals]), agent_notrace(A) ),
+         Said).
 
 test(agent_in_other_processes) :-
-    in_network([processes(2)], elsewhere(Said)),
+    in_network(elsewhere(Said)),
     findall(What, member(n1-What, Said), At1),
     findall(What, member(n2-What, Said), At2),
     At1 = [ received(user, go(_)), left(_), arrived(_, _), sent(user, home),
             ended(done) ],
     At2 = [arrived(_, _), left(_)].
 
-elsewhere(Said, Network) :-
-    network_property(Network, hosts([Here, There])),
-    clauses(Program),
+elsewhere(Said, Here-There) :-
+    Program = [ (:- agent(a, [])),
+                (main :- receive(_-go(To)), move(To), home(Home), move(Home),
+                         send(user, home)) ],
     prints(( agent_create(clauses(Program), A, [host(Here)]),
              agent_trace(A, [hops, messages]),
              agent_send(A, go(There)),
@@ -306,16 +288,11 @@ elsewhere(Said, Network) :-
              wait_until(( said(n1-ended(done)), said(n2-left(_)) ), 5) ),
            Said).
 
-clauses([ (:- agent(a, [])),
-          (main :- receive(_-go(There)), move(There), home(Home),
-                   move(Home), send(user, home)) ]).
-
-test(unknown_kind, error(domain_error(trace_kind, jumps))) :-
-    two(( traveller_on(alpha, A), agent_trace(A, [jumps]) )).
-
-test(kinds_must_be_a_list, error(type_error(list, hops))) :-
-    two(( traveller_on(alpha, A), agent_trace(A, hops) )).
-
+test(kinds_are_a_list_of_kinds,
+     [ forall(member(Kinds-Error, [ [jumps]-domain_error(trace_kind, jumps),
+                                    hops-type_error(list, hops) ])),
+       error(Error) ]) :-
+    two(( traveller_on(alpha, A), agent_trace(A, Kinds) )).
 test(no_reports_after_the_tracer_ends, error(existence_error(agent, _))) :-
     two(( traveller_on(alpha, A), agent_dispose(A),
           agent_trace(A, [hops]) )).
@@ -331,75 +308,56 @@ steps(N, Agent) :-
     N1 is N-1,
     steps(N1, Agent).
 
+%   stepped(+Program, +N, -Agent, -Said): what is printed when the agent makes N
+%   steps after it got its message; the hosts stop while it is held.
+
+:- meta_predicate stepped(+, +, -, 0, -).
+
+stepped(Program, N, A, Goal, Said) :-
+    two(prints(( agent_create(clauses(Program), A, [host(alpha)]),
+                 steps(1, A), agent_send(A, go(beta)), steps(N, A),
+                 call(Goal) ), Said)).
+
 test(agent_is_stepped_goal_by_goal) :-
-    two(prints(( traveller_on(alpha, A),
-                 steps(1, A),
-                 agent_send(A, go(beta)),
-                 steps(8, A),
-                 agent_property(A, state(State)),
-                 agent_property(A, goals([Next|_])),
-                 agent_notrace(A),
-                 agent_join(A, done, 20) ), Said)),
+    traveller(Program),
+    stepped(Program, 8, A,
+            ( agent_property(A, state(State)),
+              agent_property(A, goals([Next|_])),
+              agent_notrace(A),
+              agent_join(A, done, 20) ), Said),
     State-Next == held-sleeps,
     goals(Said, Goals),
-    append_last(Goals, [ tour(beta), move(beta), digit(_), 1>1, 2>1,
-                         assertz(seen(2)), sleeps ]).
-
-append_last(List, End) :-
-    append(_, End0, List),
-    length(End, N),
-    length(End0, N),
-    !,
-    End0 = End.
-
+    append(_, [ tour(beta), move(beta), digit(_), 1>1, 2>1, assertz(seen(2)),
+                sleeps ], Goals),
+    !.
 test(stepped_agent_rests) :-
     two(prints(( traveller_on(alpha, A), steps(3, A) ), Said)),
-    last_of(Said, rests(waiting)).
-
-last_of(List, Last) :-
-    append(_, [Last0], List),
-    !,
-    Last0 = Last.
-
+    last(Said, rests(waiting)).
 test(stepped_agent_ends) :-
-    two(prints(( agent_create(clauses([ (:- agent(a, [])),
-                                        (main :- receive(_), here(_)) ]),
-                              A, [host(alpha)]),
-                 steps(1, A), agent_send(A, x), steps(3, A) ), Said)),
-    last_of(Said, ended(done)).
-
+    goes(here(_), Program),
+    stepped(Program, 3, _, true, Said),
+    last(Said, ended(done)).
 test(held_agents_can_be_ended) :-
-    two(( prints(( traveller_on(alpha, A),
-                   agent_step(A), agent_send(A, go(beta)), agent_step(A) ), _),
-          agent_property(A, state(held)),
-          agent_dispose(A),
-          agent_join(A, disposed, 1) )).
-
-test(hosts_with_held_agents_stop) :-
-    two(prints(( traveller_on(alpha, A),
-                 agent_step(A), agent_send(A, go(beta)), agent_step(A) ), _)).
-
+    traveller(Program),
+    stepped(Program, 1, A,
+            ( agent_property(A, state(held)),
+              agent_dispose(A),
+              agent_join(A, disposed, 1) ), _).
 test(error_during_a_step) :-
-    two(prints(( agent_create(clauses([ (:- agent(a, [])),
-                                        (main :- receive(_),
-                                             catch(member(X, [1,0]), _, true),
-                                             X =:= 0, atom_length(_, _)) ]),
-                              A, [host(alpha)]),
-                 steps(1, A), agent_send(A, x), steps(6, A),
-                 agent_property(A, state(State)),
-                 agent_property(A, fault(fault(_, Goal, Place, _))) ),
-               Said)),
+    goes(( catch(member(X, [1,0]), _, true), X =:= 0, atom_length(_, _) ),
+         Program),
+    stepped(Program, 6, A,
+            ( agent_property(A, state(State)),
+              agent_property(A, fault(fault(_, Goal, Place, _))) ), Said),
     State = faulty(error(instantiation_error, _)),
     Goal-Place = atom_length(_, _)-(main/0:1),
-    last_of(Said, rests(faulty)).
-
+    last(Said, rests(faulty)).
 test(in_another_process) :-
-    in_network([processes(2)], elsewhere(Said)),
+    in_network(elsewhere(Said)),
     goals(Said, Goals),
-    last_of(Goals, here(_)).
+    last(Goals, here(_)).
 
-elsewhere(Said, Network) :-
-    network_property(Network, hosts([Here, There])),
+elsewhere(Said, Here-There) :-
     prints(( agent_create(clauses([ (:- agent(a, [])),
                                     (main :- receive(_-go(To)), move(To),
                                              here(_), sleep(100)) ]),
@@ -411,16 +369,11 @@ elsewhere(Said, Network) :-
 
 test(no_such_agent, error(existence_error(agent, _))) :-
     two(agent_step('a.v.99@alpha@virtual:0')).
-
 test(clones_are_not_held) :-
-    two(( prints(( agent_create(clauses([ (:- agent(a, [])),
-                                          (main :- receive(_), clone(W),
-                                                   told(W)),
-                                          told(parent(_)),
-                                          (told(clone(_)) :- send(user, x)) ]),
-                                A, [host(alpha)]),
-                   steps(1, A), agent_send(A, go), steps(4, A) ), Said),
-          memberchk(x, Said) )).
+    stepped([ (:- agent(a, [])), (main :- receive(_), clone(W), told(W)),
+              told(parent(_)), (told(clone(_)) :- send(user, x)) ], 4, _,
+            true, Said),
+    memberchk(x, Said).
 
 :- end_tests(stepping).
 
@@ -430,6 +383,11 @@ test(clones_are_not_held) :-
 
 spied_in(Set, Goal, Clear) :-
     setup_call_cleanup(Set, two(Goal), Clear).
+
+goes_there_and_back :-
+    traveller_on(alpha, A),
+    agent_send(A, go(beta)),
+    agent_join(A, done, 10).
 
 test(mistyped_predicate) :-
     prints(spied_in(true,
@@ -455,17 +413,13 @@ test(held_at_a_spy_point) :-
 
 test(nospy_ends_spying) :-
     prints(spied_in(( spy(traveller:tour/1), nospy(traveller:tour/1) ),
-                    ( traveller_on(alpha, A),
-                      agent_send(A, go(beta)),
-                      agent_join(A, done, 10) ),
+                    goes_there_and_back,
                     true), Said),
     Said == [home].
 
 test(calls_are_printed) :-
     prints(spied_in(trace(traveller:tour/1),
-                    ( traveller_on(alpha, A),
-                      agent_send(A, go(beta)),
-                      agent_join(A, done, 10) ),
+                    goes_there_and_back,
                     trace(traveller:tour/1, -all)), Said),
     Said == [alpha-goal(tour(beta)), home].
 
@@ -477,9 +431,7 @@ test(ports_of_native_predicates) :-
         asserta((user:message_hook(frame(_:digit(_), trace(Port, _)), _, _) :-
                      assertz(test_looking:port(Port))), Ref),
         prints(spied_in(trace(traveller:digit/1, [call, exit]),
-                        ( traveller_on(alpha, A),
-                          agent_send(A, go(beta)),
-                          agent_join(A, done, 10) ),
+                        goes_there_and_back,
                         trace(traveller:digit/1, -all)), _),
         erase(Ref)),
     findall(P, retract(test_looking:port(P)), [call, exit, exit]).
@@ -497,42 +449,36 @@ test(qualified_predicates_are_prologs) :-
 %   logged(+Kinds, -Events, -Text): the log of a traveller there and back.
 
 logged(Kinds, Events, Text) :-
-    no_leaks(with_tmp_dir(logged(Kinds, Events, Text))).
+    logged(Kinds, [_]>>true, Events, Text).
 
-logged(Kinds, Events, Text, Dir) :-
-    directory_file_path(Dir, 'log.pl', File),
-    log_option(Kinds, File, Log),
-    setup_call_cleanup(
-        network_start(edges([1-2]), Network, [clock(virtual), seed(1), Log]),
-        once(live(Network)),
-        network_stop(Network)),
-    log_events(File, Events),
-    read_file_to_string(File, Text, []).
+:- meta_predicate logged(+, 1, -, -).
 
-log_option([], File, log(File)).
-log_option([Kind|Kinds], File, log(File, [Kind|Kinds])).
+logged(Kinds, Goal, Events, Text) :-
+    with_tmp_dir(Dir,
+        ( directory_file_path(Dir, 'log.pl', File),
+          ( Kinds == [] -> Log = log(File) ; Log = log(File, Kinds) ),
+          with_network(edges([1-2]), [clock(virtual), seed(1), Log], _,
+                       [H1, H2],
+                       ( traveller_on(H1, A),
+                         prints(( call(Goal, A),
+                                  agent_send(A, go(H2)),
+                                  agent_join(A, done, 20) ), _) )),
+          log_events(File, Events),
+          read_file_to_string(File, Text, []) )).
 
-live(Network) :-
-    network_property(Network, hosts([H1, H2])),
-    traveller_on(H1, A),
-    prints(( agent_send(A, go(H2)),
-             agent_join(A, done, 20) ), _).
-
-whats(Events, Whats) :-
+test(kinds_of_events_are_logged,
+     [ forall(member(Kinds-Expected,
+                     [ []-[n1-created, n1-ended(done)],
+                       [hops, messages]-
+                       [ n1-created, n1-received(user), n1-left(N2),
+                         n2-arrived(N1, _), n2-left(N1), n1-arrived(N2, _),
+                         n1-sent(user), n1-ended(done) ] ])),
+       true(Whats = Expected) ]) :-
+    logged(Kinds, Events, _),
     findall(Name-What,
             ( member(event(_, Host, _, What), Events),
               atomic_list_concat([Name|_], @, Host) ),
             Whats).
-
-test(log_of_lives_only) :-
-    logged([], Events, _),
-    whats(Events, [n1-created, n1-ended(done)]).
-
-test(hops_and_messages) :-
-    logged([hops, messages], Events, _),
-    whats(Events,
-          [ n1-created, n1-received(user), n1-left(N2), n2-arrived(N1, _),
-            n2-left(N1), n1-arrived(N2, _), n1-sent(user), n1-ended(done) ]).
 
 test(hop_times_are_logged) :-
     logged([hops], Events, _),
@@ -549,19 +495,7 @@ test(host_option, error(type_error(event_kind, jumps))) :-
     host_start(alpha, [log('log@127.0.0.1:1', [jumps])]).
 
 test(a_traced_agent_is_in_the_log) :-
-    no_leaks(with_tmp_dir(traced_and_logged(Events))),
+    logged([], [A]>>agent_trace(A, [goals]), Events, _),
     findall(G, member(event(_, _, _, goal(G)), Events), [_|_]).
-
-traced_and_logged(Events, Dir) :-
-    directory_file_path(Dir, 'log.pl', File),
-    setup_call_cleanup(
-        network_start(edges([1-2]), Network, [clock(virtual), log(File)]),
-        once(( network_property(Network, hosts([H1, H2])),
-               traveller_on(H1, A),
-               prints(( agent_trace(A, [goals]),
-                        agent_send(A, go(H2)),
-                        agent_join(A, done, 20) ), _) )),
-        network_stop(Network)),
-    log_events(File, Events).
 
 :- end_tests(full_log).
