@@ -12,17 +12,62 @@
 *Threading*: one test at a time.
 */
 
-%   ended(+Quotas, +Clauses, -Outcome): the outcome of an agent on a host with
-%   Quotas; an agent that exceeds one is reported.
+%   ends(-Name, -Specs, -Clauses, -Outcome): Outcome is `done`, or the quota that
+%   an agent of Clauses exceeds on the first of the hosts Specs.
 
-ended(Quotas, Clauses, Outcome) :-
-    with_hosts([g-[quota(Quotas)], t],
-               capturing(( create(Clauses, A, [host(g)]),
-                           joined(A, Outcome) ), Messages)),
-    forall(Outcome = raised(error(resource_error(What), _)),
-           memberchk(warning-typhon(over_limit(_, What)), Messages)).
+ends(hops_per_second, [g-[quota([hops(20)])], t],
+     [(main :- move(t), move(g), main)], hops).
+ends(caught_error, [g-[quota([hops(20)])], t],
+     [(main :- catch(( move(t), move(g) ), _, true), main)], hops).
+ends(repeatedly_caught_error, [g-[quota([messages(20)])]],
+     [(main :- repeat, catch(send(user, x), _, true), fail)], messages).
+ends(slow_traveller, [g-[quota([hops(3)])], t],
+     [ (main :- lap(4)), lap(0),
+       (lap(N) :- move(t), move(g), sleep(0.4), M is N-1, lap(M)) ], done).
+ends(clones_of_one_parent, [g-[quota([clones(5)])]],
+     [ (main :- clone(W), on(W)), on(clone(_)), (on(parent(_)) :- main),
+       on_message(_, _) ], clones).
+ends(state_growth_of_a_visitor, [t, g-[quota([state(50 000)])]],
+     [(main :- move(g), forall(between(1, 5000, X), assertz(s(X))))], state).
+ends(waiting_agent, [g-[clock(virtual), quota([lifetime(100)])]],
+     [(main :- receive(_))], lifetime).
+ends(sleeping_agent, [g-[clock(virtual), quota([lifetime(100)])]],
+     [(main :- sleep(7), main)], lifetime).
+ends(running_agent, [g-[quota([lifetime(0.3)])]], [(main :- lp), (lp :- lp)],
+     lifetime).
+ends(lifetime_restarts_at_each_arrival,
+     [g-[clock(virtual), quota([lifetime(10)])], t-[clock(virtual)]],
+     [ (main :- lap(10)), lap(0),
+       (lap(N) :- sleep(8), move(t), move(g), M is N-1, lap(M)) ], done).
+ends(seconds_of_all_agents, [g-[quota([host(seconds(0.3))])]],
+     [(main :- lp), (lp :- lp)], seconds).
+ends(tuples, [g-[quota([tuples(5)])]], Clauses, tuples) :- leaver(10, Clauses).
+ends(fewer_tuples, [g-[quota([tuples(5)])]], Clauses, done) :-
+    leaver(5, Clauses).
+ends(taken_tuples, [g-[quota([tuples(5)])]],
+     [(main :- forall(between(1, 20, X), ( leave(f(X)), take(f(X)) )))], done).
 
-over(What, raised(error(resource_error(What), _))).
+leaver(N, [(main :- forall(between(1, N, X), leave(f(X))))]).
+
+%   over(+Agent, -Quota): what ended it, which was reported.
+
+over(Agent, Quota) :-
+    agent_join(Agent, Outcome, 1000),
+    (   Outcome = raised(error(resource_error(Quota), _))
+    ->  Report = typhon(over_limit(Agent, Quota)),
+        wait_until(was_printed(warning, Report), 5)
+    ;   Quota = Outcome
+    ).
+
+%   A visitor from the process p, on the host of this process with Quotas.
+
+with_visitors(Quotas, Clauses, Count, As, Goal) :-
+    no_leaks(with_peers([p],
+        with_host_here([quota(Quotas)],
+            capturing(( visitors(p, Clauses, Count, As), Goal ), _)))).
+
+:- meta_predicate with_visitors(+, +, +, -, 0), with_host_here(0),
+                  with_host_here(+, 0).
 
 with_host_here(Goal) :-
     with_host_here([], Goal).
@@ -32,16 +77,12 @@ with_host_here(Options, Goal) :-
 
 :- begin_tests(quotas_of_agents).
 
-test(hops_per_second, O = raised(error(resource_error(hops), _))) :-
-    ended([hops(20)], [ (main :- move(t), move(g), main) ], O).
-test(quota_error_cannot_be_caught,
-     O = raised(error(resource_error(hops), _))) :-
-    ended([hops(20)],
-          [ (main :- catch(( move(t), move(g) ), _, true), main) ], O).
-test(quota_cannot_be_exceeded_repeatedly, O == messages) :-
-    ended([messages(20)],
-          [ (main :- repeat, catch(send(user, x), _, true), fail) ], Outcome),
-    over(O, Outcome).
+test(agent_that_exceeds_a_quota_ends,
+     [forall(ends(_, Specs, Clauses, Expected)), true(Quota == Expected)]) :-
+    Specs = [First|_],
+    ( First = Host-_ -> true ; Host = First ),
+    with_hosts(Specs, capturing(( create(Clauses, A, [host(Host)]),
+                                  over(A, Quota) ), _)).
 
 %   Inside a probe the agent could not be ended in time.
 
@@ -53,8 +94,7 @@ test(traced_goals, O == messages) :-
                                   A, [host(g)]),
                            agent_trace(A, [goals]),
                            agent_send(A, go),
-                           joined(A, Outcome) ), _)),
-    over(O, Outcome).
+                           over(A, O) ), _)).
 test(logging_by_the_user_is_not_counted) :-
     with_hosts([g-[quota([log(2)])]],
                capturing(remote(g, forall(between(1, 5, X), log(X))), _)).
@@ -83,28 +123,14 @@ test(quota_exceeded_by_another_agent, Told == []) :-
     findall(B, ( member(B, Bs),
                  memberchk(warning-typhon(over_limit(B, _)), Messages) ),
             Told).
-test(slow_traveller_stays_below_the_quota, Outcome == done) :-
-    ended([hops(3)],
-          [ (main :- lap(4)), lap(0),
-            (lap(N) :- move(t), move(g), sleep(0.4), M is N-1, lap(M)) ],
-          Outcome).
-test(clones_of_one_parent_are_limited,
-     O = raised(error(resource_error(clones), _))) :-
-    ended([clones(5)],
-          [ (main :- clone(W), on(W)), on(clone(_)), (on(parent(_)) :- main),
-            on_message(_, _) ], O).
-
 %   The clones' parent was created in another process, and is of the same
 %   family.
 
 test(clones_of_a_visitor, O == resource_error(clones)) :-
-    no_leaks(with_peers([p],
-        with_host_here([quota([clones(5)])],
-            capturing(( visitors(p, [ (main :- s(H), move(H), many),
-                                      (many :- clone(W), on(W)), on(clone(_)),
-                                      (on(parent(_)) :- many),
-                                      on_message(_, _) ], 1, [A]),
-                        joined(A, raised(error(O, _))) ), _)))).
+    with_visitors([clones(5)],
+                  [ (main :- s(H), move(H), many), (many :- clone(W), on(W)),
+                    on(clone(_)), (on(parent(_)) :- many), on_message(_, _) ],
+                  1, [A], joined(A, raised(error(O, _)))).
 test(arriving_state_is_checked,
      R = error(move_refused(_, quota(state)), _)) :-
     with_hosts([t, g-[quota([state(50 000)])]],
@@ -112,47 +138,20 @@ test(arriving_state_is_checked,
                                    catch(move(g), E, true), result(E)) ],
                         A, [host(t)]),
                  agent_result(A, R, 5) )).
-test(state_growth_of_a_visitor, O == state) :-
-    with_hosts([t, g-[quota([state(50 000)])]],
-               capturing(( create([ (main :- move(g),
-                                             forall(between(1, 5000, X),
-                                                    assertz(s(X)))) ], A,
-                                  [host(t)]),
-                           joined(A, Outcome) ), _)),
-    over(O, Outcome).
-
 :- end_tests(quotas_of_agents).
 
 :- begin_tests(lifetime).
 
-test(waiting_agent, O-T == lifetime-100.0) :-
+test(lifetime_ends_in_virtual_time, T =:= 100.0) :-
     with_hosts([g-[clock(virtual), quota([lifetime(100)])]],
-               capturing(( create([ (main :- receive(_)) ], A, [host(g)]),
-                           agent_join(A, Outcome, 1000),
-                           host_time_of(g, T) ), _)),
-    over(O, Outcome).
-test(sleeping_agent, O == lifetime) :-
-    with_hosts([g-[clock(virtual), quota([lifetime(100)])]],
-               capturing(( create([ (main :- sleep(7), main) ], A, [host(g)]),
-                           agent_join(A, Outcome, 1000) ), _)),
-    over(O, Outcome).
-test(running_agent, O == lifetime) :-
-    with_hosts([g-[quota([lifetime(0.3)])]],
-               capturing(( create([ (main :- lp), (lp :- lp) ], A, [host(g)]),
-                           joined(A, Outcome) ), _)),
-    over(O, Outcome).
-test(lifetime_restarts_at_each_arrival, R == 10) :-
-    with_hosts([g-[clock(virtual), quota([lifetime(10)])], t-[clock(virtual)]],
-               ( create([ (main :- lap(10), result(10)), lap(0),
-                          (lap(N) :- sleep(8), move(t), move(g), M is N-1,
-                                     lap(M)) ], A, [host(g)]),
-                 agent_result(A, R, 1000) )).
+               capturing(( create([(main :- receive(_))], A, [host(g)]),
+                           over(A, lifetime),
+                           remote(g, now(T)) ), _)).
 test(changed_quota_applies_to_present_agents, O == lifetime) :-
     with_hosts([g],
                capturing(( create([on_message(_, _)], A, [host(g)]),
                            host_change(g, quota([lifetime(0.2)])),
-                           joined(A, Outcome) ), _)),
-    over(O, Outcome).
+                           over(A, O) ), _)).
 test(removed_quota_ends_no_agent, State == resident) :-
     with_hosts([g-[clock(virtual), quota([lifetime(5)])]],
                ( create([on_message(_, _)], A, [host(g)]),
@@ -162,9 +161,6 @@ test(removed_quota_ends_no_agent, State == resident) :-
                  state_of(A, State) )).
 
 :- end_tests(lifetime).
-
-host_time_of(Host, Time) :-
-    remote(Host, now(Time)).
 
 :- begin_tests(mailbox).
 
@@ -254,9 +250,6 @@ lost_with(A, N) :-
 outcomes(As, Os) :-
     findall(O, ( member(A, As), joined(A, O) ), Os).
 
-count(O, Os, Count) :-
-    aggregate_all(count, member(O, Os), Count).
-
 talker(Times, [ (main :- forall(between(1, Times, X), send(user, X))) ]).
 
 created(Where, Times, Clauses, As) :-
@@ -269,21 +262,19 @@ test(messages_of_one_owner, true(Ended >= 5)) :-
     with_hosts([g-[quota([owner(messages(30))])]],
                capturing(( created([host(g)], 12, Clauses, As),
                            outcomes(As, Os) ), _)),
-    over(messages, O),
-    count(O, Os, Ended).
+    aggregate_all(count, member(raised(error(resource_error(messages), _)), Os),
+                  Ended).
 test(other_owners_are_not_affected,
      [Theirs,Ours] == [resource_error(messages),done]) :-
-    no_leaks(with_peers([p],
-        with_host_here([quota([owner(messages(20))])],
-            capturing(( visitors(p, [ (main :- s(H), move(H), lp),
-                                      (lp :- send(user, x), sleep(0.001), lp) ],
-                                 3, As),
-                        member(A, As),
-                        joined(A, raised(error(Theirs, _))),
-                        talker(10, Clauses),
-                        create(Clauses, B),
-                        joined(B, Ours),
-                        forall(member(C, As), disposed(C)) ), _)))).
+    with_visitors([owner(messages(20))],
+                  [ (main :- s(H), move(H), lp),
+                    (lp :- send(user, x), sleep(0.001), lp) ], 3, As,
+                  ( member(A, As),
+                    joined(A, raised(error(Theirs, _))),
+                    talker(10, Clauses),
+                    create(Clauses, B),
+                    joined(B, Ours),
+                    forall(member(C, As), disposed(C)) )).
 test(agents_of_one_owner, R-Ours == refused-3) :-
     no_leaks(with_peers([p],
         with_host_here([quota([owner(agents(3))])],
@@ -298,26 +289,23 @@ test(agents_of_one_owner, R-Ours == refused-3) :-
               wait_until(agent_property(V, state(waiting)), 5),
               disposed(V) )))).
 test(clones_count_for_their_owner, R = move_refused(_, quota(agents))) :-
-    no_leaks(with_peers([p],
-        with_host_here([quota([owner(agents(3))])],
-            ( visitors(p, [ (main :- s(H), move(H), many(0)),
-                            (many(N) :- catch(clone(W), error(E, _), true),
-                                        on(W, E, N)),
-                            (on(W, _, _) :- nonvar(W), W = clone(_), !,
-                                            sleep(1000)),
-                            (on(W, _, N) :- nonvar(W), !, M is N+1, many(M)),
-                            (on(_, E, _) :- result(E)) ], 1, [V]),
-              agent_result(V, R, 10) )))).
+    with_visitors([owner(agents(3))],
+                  [ (main :- s(H), move(H), many(0)),
+                    (many(N) :- catch(clone(W), error(E, _), true),
+                                on(W, E, N)),
+                    (on(W, _, _) :- nonvar(W), W = clone(_), !, sleep(1000)),
+                    (on(W, _, N) :- nonvar(W), !, M is N+1, many(M)),
+                    (on(_, E, _) :- result(E)) ], 1, [V],
+                  agent_result(V, R, 10)).
 test(largest_consumer_ends_first,
      [Hog,Other] == [resource_error(messages),done]) :-
-    no_leaks(with_peers([p],
-        with_host_here([quota([host(messages(50))])],
-            capturing(( visitors(p, [ (main :- s(H), move(H), lp),
-                                      (lp :- send(user, x), lp) ], 1, [A]),
-                        talker(10, Clauses),
-                        create(Clauses, B),
-                        joined(B, Other),
-                        joined(A, raised(error(Hog, _))) ), _)))).
+    with_visitors([host(messages(50))],
+                  [(main :- s(H), move(H), lp), (lp :- send(user, x), lp)],
+                  1, [A],
+                  ( talker(10, Clauses),
+                    create(Clauses, B),
+                    joined(B, Other),
+                    joined(A, raised(error(Hog, _))) )).
 test(state_of_one_owner, Ended-Left == 1-2) :-
     current_prolog_flag(address_bits, Bits),
     Most is 300 000*Bits//64,
@@ -330,12 +318,8 @@ test(state_of_one_owner, Ended-Left == 1-2) :-
                                         agent_property(X, state(_)) ), Xs) ),
                          Messages)),
     length(Xs, Left),
-    count(warning-typhon(over_limit(_, state)), Messages, Ended).
-test(seconds_of_all_agents, O == resource_error(seconds)) :-
-    with_hosts([g-[quota([host(seconds(0.3))])]],
-               capturing(( create([ (main :- lp), (lp :- lp) ], A, [host(g)]),
-                           joined(A, raised(error(O, _))) ), _)).
-
+    aggregate_all(count, member(warning-typhon(over_limit(_, state)), Messages),
+                  Ended).
 %   One second of real time; without pauses the agent would use nearly one of a
 %   processor, too, unless others do.
 
@@ -377,16 +361,6 @@ disposed(A) :-
 
 :- begin_tests(tuples).
 
-test(each_agent_has_its_own_quota, [A,B] == [resource_error(tuples),done]) :-
-    with_hosts([g-[quota([tuples(5)])]],
-               capturing(( leaver(10, C), joined(C, raised(error(A, _))),
-                           leaver(5, D), joined(D, B) ), _)).
-test(taking_a_tuple_frees_space, O == done) :-
-    with_hosts([g-[quota([tuples(5)])]],
-               ( create([ (main :- forall(between(1, 20, X),
-                                          ( leave(f(X)), take(f(X)) ))) ], A,
-                        [host(g)]),
-                 joined(A, O) )).
 test(tuples_taken_by_others_free_space, O == done) :-
     with_hosts([g-[quota([tuples(5)])]],
                ( create([ (main :- lap(4)), lap(0),
@@ -399,13 +373,10 @@ test(tuples_taken_by_others_free_space, O == done) :-
                           agent_send(A, on) )),
                  joined(A, O) )).
 test(agent_that_fills_the_space_ends, [A,B] == [resource_error(tuples),done]) :-
-    no_leaks(with_peers([p],
-        with_host_here([quota([host(tuples(20))])],
-            capturing(( visitors(p, [ (main :- s(H), move(H),
-                                               forall(between(1, 30, X),
-                                                      leave(f(X)))) ], 1, [C]),
-                        joined(C, raised(error(A, _))),
-                        leaver(5, D), joined(D, B) ), _)))).
+    with_visitors([host(tuples(20))],
+                  [ (main :- s(H), move(H),
+                             forall(between(1, 30, X), leave(f(X)))) ], 1, [C],
+                  ( joined(C, raised(error(A, _))), leaves(5, B) )).
 
 %   The agents that left the tuples are known after the restart, and tuples of
 %   theirs that are taken then do not count any more.
@@ -416,25 +387,27 @@ test(owner_of_tuples_is_kept,
 
 left_before(O-Taken, Dir) :-
     Options = [journal(Dir), quota([host(tuples(5))])],
-    with_host_here(Options, ( leaver(5, A), joined(A, done) )),
+    with_host_here(Options, leaves(5, done)),
     with_host_here(Options,
-                   capturing(( leaver(1, B), joined(B, Outcome),
+                   capturing(( leaves(1, O),
                                remote(here, take(f(_))),
-                               leaver(1, C), joined(C, Taken) ), _)),
-    over(O, Outcome).
+                               leaves(1, Taken) ), _)).
+
+leaves(N, Quota) :-
+    leaver(N, Clauses),
+    create(Clauses, A),
+    over(A, Quota).
 
 :- end_tests(tuples).
 
-leaver(N, A) :-
-    create([ (main :- forall(between(1, N, X), leave(f(X)))) ], A).
-
 :- begin_tests(invalid_quotas).
 
-test(unknown_scope, error(domain_error(quota, owner(cells(1))))) :-
-    host_start(g, [quota([owner(cells(1))])]).
-test(invalid_number, error(type_error(number, x))) :-
-    host_start(g, [quota([owner(messages(x))])]).
-test(zero_is_refused, error(domain_error(quota, host(state(0))))) :-
-    host_start(g, [quota([host(state(0))])]).
+test(invalid_quota,
+     [ forall(member(Quota-Error,
+                     [ owner(cells(1))-domain_error(quota, owner(cells(1))),
+                       owner(messages(x))-type_error(number, x),
+                       host(state(0))-domain_error(quota, host(state(0))) ])),
+       error(Error) ]) :-
+    host_start(g, [quota([Quota])]).
 
 :- end_tests(invalid_quotas).
