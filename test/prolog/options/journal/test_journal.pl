@@ -33,12 +33,7 @@ twice(First, Second, Dir) :-
 started(Dir, Goal) :-
     setup_call_cleanup(host_start(alpha, [journal(Dir)]),
                        once(Goal),
-                       stop_all).
-
-%   The last host is not stopped but rests.
-
-stop_all :-
-    host_stop(alpha).
+                       host_stop(alpha)).   % it rests
 
 keeper(clauses([ (:- agent(keeper, [state([got/1])])),
                  (on_message(_, M) :- assertz(got(M))) ])).
@@ -47,11 +42,9 @@ test(agents_and_their_state_are_restored) :-
     with_journal(
         ( keeper(P),
           agent_create(P, Id, []),
-          nb_setval(journal_test, Id),
           forall(between(1, 3, I), agent_send(Id, m(I))),
           got(Id, [m(1), m(2), m(3)]) ),
-        ( nb_getval(journal_test, Id),
-          wait_until(agent_property(Id, state(resident)), 5), % m(3) again
+        ( wait_until(agent_property(Id, state(resident)), 5), % m(3) again
           agent_send(Id, m(4)),
           got(Id, [m(1), m(2), m(3), m(4)]) )).
 
@@ -65,26 +58,12 @@ test(waiting_agents_receive_and_sleeping_agents_wake) :-
                                  (main :- receive(_-X), result(X)) ]), A, []),
           agent_create(clauses([ (:- agent(sleeps, [])),
                                  (main :- sleep(3), result(awake)) ]), B, []),
-          nb_setval(journal_test, A-B),
           wait_until(( agent_property(A, state(waiting)),
                        agent_property(B, state(sleeping)) ), 5) ),
-        ( nb_getval(journal_test, A-B),
-          agent_property(A, state(waiting)),
+        ( agent_property(A, state(waiting)),
           agent_send(A, hello),
           agent_result(A, hello, 5),
           agent_result(B, awake, 20) )).
-
-test(outcomes_and_results_are_restored) :-
-    with_journal(
-        ( agent_create(clauses([ (:- agent(ends, [])),
-                                 (main :- clone(W), result(W)) ]), A, []),
-          agent_join(family(A), [A-done, C-done], 5),
-          nb_setval(journal_test, A-C) ),
-        ( nb_getval(journal_test, A-C),
-          agent_join(A, done, 1),
-          agent_result(A, parent(C), 1),
-          agent_result(C, clone(A), 1),
-          agent_join(family(A), [A-done, C-done], 5) )).
 
 %   A table that the journal knows only by its declaration.
 
@@ -101,49 +80,24 @@ test(declared_facts_are_restored_in_order, [cleanup(retractall(visit(_, _)))]) :
         ( findall(Id-N, visit(Id, N), Visits),
           Visits == [alice-9, alice-10, alice-11] )).
 
-test(tuples_and_delivered_payloads_are_restored) :-
-    with_tmp_dir(facts).
-
-facts(Dir) :-
-    atom_concat(Dir, '/greeting.pl', File),
-    write_file(File, ':- payload(greeting, [provides([hi/1])]).~n\c
-                      hi(there).~n', []),
-    atom_concat(Dir, '/journal', Journal),
-    started(Journal,
-        ( remote(alpha, ( leave(a(1)), leave(a(2)), leave(a(2)),
-                          leave(f(X, X)), take(a(1)) )),
-          agent_create(clauses([ (:- agent(brings, [])),
-                                 (main :- deliver(greeting)) ]), A,
-                       [payloads([File])]),
-          agent_join(A, done, 5) )),
-    started(Journal,
-        ( remote(alpha, findall(F, sense(F), Facts)),
-          Facts =@= [a(2), a(2), f(Y, Y)],
-          remote(alpha, hi(there)) )).
-
 test(other_hosts_are_restored_and_requested_once,
      [error(permission_error(start, host, beta))]) :-
     with_tmp_dir(other_hosts).
 
 other_hosts(Dir) :-
-    free_port(Port),
-    b_setval(journal_port, Port),
-    format(atom(Host), 'alpha@127.0.0.1:~d', [Port]),
-    format(atom(Beta), 'beta@127.0.0.1:~d', [Port]),
     keeper(P),
-    setup_call_cleanup(
-        host_start(driver),
-        killed(Dir,
-            ( remote(Host, typhon:host_start(beta, [capacity(1)])),
-              link(Host, Beta),
-              agent_create(P, Id, [host(Beta)]) ),
-            ( remote(Host, typhon:host_property(alpha, neighbours([Beta]))),
-              remote(Host, typhon:host_property(beta, load(1))),
-              agent_property(Id, host(Beta)),
-              catch(agent_create(P, _, [host(Beta)]), Refused, true),
-              remote(Host, typhon:host_start(beta)),
-              catch(remote(Host, typhon:host_start(beta)), Error, true) )),
-        host_stop(driver)),
+    killed(Dir, Host,
+        ( atom_concat(alpha, There, Host),
+          atom_concat(beta, There, Beta),
+          remote(Host, typhon:host_start(beta, [capacity(1)])),
+          link(Host, Beta),
+          agent_create(P, Id, [host(Beta)]) ),
+        ( remote(Host, typhon:host_property(alpha, neighbours([Beta]))),
+          remote(Host, typhon:host_property(beta, load(1))),
+          agent_property(Id, host(Beta)),
+          catch(agent_create(P, _, [host(Beta)]), Refused, true),
+          remote(Host, typhon:host_start(beta)),
+          catch(remote(Host, typhon:host_start(beta)), Error, true) )),
     Refused = error(move_refused(Beta, capacity), _),
     throw(Error).
 
@@ -183,15 +137,12 @@ test(journal_is_refused_in_virtual_time,
      [error(permission_error(open, journal, _))]) :-
     host_start(alpha, [clock(virtual), journal('/tmp/none')]).
 
-test(faulty_agents_are_restored_and_resumed,
-     [setup(nb_setval(journal_test, none))]) :-
+test(faulty_agents_are_restored_and_resumed) :-
     with_journal(
         ( agent_create(clauses([ (:- agent(fails, [state([ok/0])])),
                                  (main :- ok, result(fine)) ]), A, []),
-          agent_join(A, failed, 5),
-          nb_setval(journal_test, A) ),
-        ( nb_getval(journal_test, A),
-          wait_until(agent_property(A, state(faulty(_))), 5),
+          agent_join(A, failed, 5) ),
+        ( wait_until(agent_property(A, state(faulty(_))), 5),
           agent_change(A, facts([ok])),
           agent_resume(A),
           agent_result(A, fine, 5) )).
@@ -264,7 +215,7 @@ one_after_the_other(Dir) :-
                              memberchk(got(second), Facts) ), 0.5), _, true),
           thread_send_message(Gate, on),
           got(A, [first, second]) ),
-        ( stop_all, message_queue_destroy(Gate) )).
+        ( host_stop(alpha), message_queue_destroy(Gate) )).
 
 %   The predicate stays wrapped: unwrapping a predicate that a thread executes
 %   is not safe.
@@ -293,25 +244,27 @@ test(program_is_recorded_after_a_failed_unit_of_work) :-
           typhon_durable_changes:durable_drop(code, Hash, 0),
           \+ typhon_durable_changes:unit_of_work(
                  ( typhon_journaled_agents:note_code(Hash), fail )),
-          agent_create(P, Id, []),
-          nb_setval(journal_test, Id) ),
-        ( nb_getval(journal_test, Id),
-          agent_property(Id, state(resident)) )).
+          agent_create(P, Id, []) ),
+        ( agent_property(Id, state(resident)) )).
 
-%   killed(+Dir, :Before, :After): in a process that is killed, and in the next
-%   one.
+%   killed(+Dir, -Host, :Before, :After): beside a process with Host that is
+%   killed, and beside the next one.
 
-:- meta_predicate killed(+, 0, 0).
+:- meta_predicate killed(+, -, 0, 0), node(+, +, 0).
 
-killed(Dir, Before, After) :-
-    node(Dir, Before),
-    node(Dir, After).
+killed(Dir, Host, Before, After) :-
+    node_host(Port, Host),
+    setup_call_cleanup(
+        host_start(driver),
+        ( node(Dir, Port, Before), node(Dir, Port, After) ),
+        host_stop(driver)).
 
-:- meta_predicate node(+, 0).
+node_host(Port, Host) :-
+    free_port(Port),
+    format(atom(Host), 'alpha@127.0.0.1:~d', [Port]).
 
-node(Dir, Goal) :-
+node(Dir, Port, Goal) :-
     project_file('test/chaos/lasting/node.pl', File),
-    b_getval(journal_port, Port),
     with_swipl([File, '--', alpha, Port, Dir, normal, 1], Pid, In, Out,
                ( format(In, 'orders([]).~n', []),
                  flush_output(In),
@@ -324,35 +277,29 @@ test(unfinished_step_is_repeated_with_one_effect) :-
     with_tmp_dir(half_a_step).
 
 half_a_step(Dir) :-
-    free_port(Port),
-    b_setval(journal_port, Port),
-    format(atom(Host), 'alpha@127.0.0.1:~d', [Port]),
     keeper(Keeper),
     atom_concat(Dir, '/go', Go),
     atom_concat(Dir, '/begun', Begun),
-    setup_call_cleanup(
-        host_start(driver),
-        killed(Dir,
-            ( agent_create(Keeper, K, [host(Host)]),
-              remote(Host, leave(token)),
-              agent_create(clauses([ (:- agent(steps, [state([to/1])])),
-                                     (main :- take(token), to(To),
-                                              send(To, begun), leave(changed),
-                                              ( exists_file(Go) -> true
-                                              ; open(Begun, write, S), close(S),
-                                                thread_self(T), thread_get_message(T, never)
-                                              ),
-                                              sleep(0),
-                                              result(done)) ]), _,
-                           [host(Host), facts([to(K)])]),
-              wait_until(exists_file(Begun), 10),
-              remote(Host, findall(F, sense(F), [])),
-              open(Go, write, Out),
-              close(Out) ),
-            ( wait_until(remote(Host, sense(changed)), 5),
-              remote(Host, findall(F, sense(F), [changed])),
-              got(K, [begun]) )),
-        host_stop(driver)).
+    killed(Dir, Host,
+        ( agent_create(Keeper, K, [host(Host)]),
+          remote(Host, leave(token)),
+          agent_create(clauses([ (:- agent(steps, [state([to/1])])),
+                                 (main :- take(token), to(To),
+                                          send(To, begun), leave(changed),
+                                          ( exists_file(Go) -> true
+                                          ; open(Begun, write, S), close(S),
+                                            thread_self(T), thread_get_message(T, never)
+                                          ),
+                                          sleep(0),
+                                          result(done)) ]), _,
+                       [host(Host), facts([to(K)])]),
+          wait_until(exists_file(Begun), 10),
+          remote(Host, findall(F, sense(F), [])),
+          open(Go, write, Out),
+          close(Out) ),
+        ( wait_until(remote(Host, sense(changed)), 5),
+          remote(Host, findall(F, sense(F), [changed])),
+          got(K, [begun]) )).
 
 %   The process is killed in the middle of a step that has written a log entry.
 
@@ -360,15 +307,12 @@ test(log_entries_are_written_once_with_their_step) :-
     with_tmp_dir(logs).
 
 logs(Dir) :-
-    free_port(Port),
-    b_setval(journal_port, Port),
-    format(atom(Host), 'alpha@127.0.0.1:~d', [Port]),
     atom_concat(Dir, '/go', Go),
     atom_concat(Dir, '/log', Log),
     atom_concat(Dir, '/alpha', Journal),
     setup_call_cleanup(
         log_server_start([file(Log)], Server),
-        killed(Journal,
+        killed(Journal, Host,
                ( remote(Host, typhon:host_change(alpha, log(Server))),
                  logger(Go, Program),
                  agent_create(Program, A, [host(Host)]),
@@ -398,17 +342,15 @@ test(host_with_peers_rests_and_is_restored) :-
 rests(Dir) :-
     atom_concat(Dir, '/here', Here),
     atom_concat(Dir, '/there', There),
-    free_port(Port),
-    b_setval(journal_port, Port),
-    format(atom(Host), 'alpha@127.0.0.1:~d', [Port]),
+    node_host(Port, Host),
     forall(between(1, 2, _),
            setup_call_cleanup(
                host_start(beta, [journal(Here)]),
-               node(There, ( keeper(P),
-                             agent_create(P, A, [host(Host)]),
-                             agent_send(A, hello),
-                             got(A, [hello]),
-                             host_stop(beta) )),
+               node(There, Port, ( keeper(P),
+                                   agent_create(P, A, [host(Host)]),
+                                   agent_send(A, hello),
+                                   got(A, [hello]),
+                                   host_stop(beta) )),
                ignore(catch(host_stop(beta), error(_, _), fail)))).
 
 %   The thread that has admitted a visitor leaves its answer in the buffer of
@@ -419,33 +361,25 @@ test(arrival_is_acknowledged_after_its_commit) :-
     with_tmp_dir(taken_along).
 
 taken_along(Dir) :-
-    free_port(Port),
-    b_setval(journal_port, Port),
-    format(atom(Host), 'alpha@127.0.0.1:~d', [Port]),
     atom_concat(Dir, '/there', There),
-    setup_call_cleanup(
-        host_start(driver),
-        killed(Dir,
-            ( host_property(driver, address(Driver)),
-              atom_concat(Dir, '/hooks.pl', Hooks),
-              setup_call_cleanup(
-                  open(Hooks, write, Out),
-                  forall(about_to_say(Clause), portray_clause(Out, Clause)),
-                  close(Out)),
-              remote(Host, ( load_files(user:Hooks, []),
-                             debug(typhon(frame)),
-                             thread_create(typhon:remote(Driver, true), _,
-                                           [alias(says)]) )),
-              wait_until(remote(Host, user:is_about_to), 5),
-              visitor(Program),
-              agent_create(Program, A, [facts([to(Host), there(There)])]),
-              nb_setval(journal_test, A),
-              wait_until(exists_file(There), 5),
-              ignore(catch(wait_until(\+ agent_property(A, host(driver)), 1),
-                           _, true)) ),
-            ( nb_getval(journal_test, A),
-              agent_result(A, was_there, 10) )),
-        host_stop(driver)).
+    killed(Dir, Host,
+        ( host_property(driver, address(Driver)),
+          atom_concat(Dir, '/hooks.pl', Hooks),
+          setup_call_cleanup(
+              open(Hooks, write, Out),
+              forall(about_to_say(Clause), portray_clause(Out, Clause)),
+              close(Out)),
+          remote(Host, ( load_files(user:Hooks, []),
+                         debug(typhon(frame)),
+                         thread_create(typhon:remote(Driver, true), _,
+                                       [alias(says)]) )),
+          wait_until(remote(Host, user:is_about_to), 5),
+          visitor(Program),
+          agent_create(Program, A, [facts([to(Host), there(There)])]),
+          wait_until(exists_file(There), 5),
+          ignore(catch(wait_until(\+ agent_property(A, host(driver)), 1),
+                       _, true)) ),
+        ( agent_result(A, was_there, 10) )).
 
 about_to_say((:- dynamic(nothing_is_committed/0))).
 about_to_say((:- dynamic(is_about_to/0))).
@@ -483,25 +417,19 @@ test(large_changing_state_survives_any_kill,
     with_tmp_dir(changing(Messages)).
 
 changing(Messages, Dir) :-
-    free_port(Port),
-    b_setval(journal_port, Port),
-    format(atom(Host), 'alpha@127.0.0.1:~d', [Port]),
     Begun is Messages//2,
-    setup_call_cleanup(
-        host_start(driver),
-        killed(Dir,
-            ( changer(Program, Facts),
-              agent_create(Program, A, [host(Host), facts(Facts)]),
-              forall(between(1, Messages, I), agent_send(A, I)),
-              wait_until(( changes_done(A, Done), Done >= Begun ), 30) ),
-            ( agent_send(A, last),
-              wait_until(( agent_property(A, state(resident)),
-                           agent_property(A, mailbox([])) ), 30),
-              agent_property(A, facts(Clauses)),
-              changes_done(A, N),
-              model(N, Model),
-              by_predicate(Clauses, Model) )),
-        host_stop(driver)).
+    killed(Dir, Host,
+        ( changer(Program, Facts),
+          agent_create(Program, A, [host(Host), facts(Facts)]),
+          forall(between(1, Messages, I), agent_send(A, I)),
+          wait_until(( changes_done(A, Done), Done >= Begun ), 30) ),
+        ( agent_send(A, last),
+          wait_until(( agent_property(A, state(resident)),
+                       agent_property(A, mailbox([])) ), 30),
+          agent_property(A, facts(Clauses)),
+          changes_done(A, N),
+          model(N, Model),
+          by_predicate(Clauses, Model) )).
 
 %   The unit of work that would have recorded a change fails: the change is
 %   recorded with the next one.
@@ -510,7 +438,6 @@ test(change_of_a_failed_unit_of_work_is_kept) :-
     with_journal(
         ( changer(Program, Facts),
           agent_create(Program, A, [facts(Facts)]),
-          nb_setval(journal_test, A),
           agent_send(A, one),
           wait_until(rests_after(A, 1), 5),
           typhon_agents:agent(A, _, Module, _, _),
@@ -520,9 +447,8 @@ test(change_of_a_failed_unit_of_work_is_kept) :-
                    fail )),
           agent_send(A, two),
           wait_until(rests_after(A, 2), 5) ),
-        ( nb_getval(journal_test, Again),
-          changes_done(Again, 2),
-          agent_property(Again, facts(Kept)),
+        ( changes_done(A, 2),
+          agent_property(A, facts(Kept)),
           memberchk(item(new, change), Kept) )).
 
 changes_done(A, N) :-
