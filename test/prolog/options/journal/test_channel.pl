@@ -16,36 +16,37 @@ it is the last one.
 
 :- needs([journal]).
 
-%   with_beta(:Before, :After): from a host with a journal, to another process
-%   with a journal, which is killed after Before; After is called when it has
-%   restarted. Its hosts are beta and, at another port, gamma.
+%   with_beta(-Beta, -Pid, :Before, :After): from a host with a journal, to
+%   another process with a journal, Pid, which is killed after Before; After is
+%   called when it has restarted. Its hosts are Beta and, at another port, gamma.
+%   With_listener/3 passes the host to Goal, and an agent there.
 
 :- meta_predicate
-    with_beta(0, 0),
-    beta(+, +, 0).
+    with_beta(-, -, 0, 0),
+    with_listener(-, -, 0),
+    beta(+, +, -, 0).
 
-with_beta(Before, After) :-
-    no_leaks(with_tmp_dir(beta_twice(Before, After))).
+with_beta(Beta, Pid, Before, After) :-
+    no_leaks(with_tmp_dir(Dir,
+        ( atom_concat(Dir, '/driver', Mine),
+          atom_concat(Dir, '/beta', Journal),
+          free_port(Port),
+          format(atom(Beta), 'beta@127.0.0.1:~d', [Port]),
+          setup_call_cleanup(
+              host_start(driver, [journal(Mine)]),
+              ( beta(Journal, Port, Pid, Before),
+                beta(Journal, Port, _, After) ),
+              host_stop(driver)) ))).
 
-beta_twice(Before, After, Dir) :-
-    atom_concat(Dir, '/driver', Mine),
-    atom_concat(Dir, '/beta', Journal),
-    free_port(Port),
-    format(atom(Beta), 'beta@127.0.0.1:~d', [Port]),
-    nb_setval(channel_beta, Beta),
-    setup_call_cleanup(
-        host_start(driver, [journal(Mine)]),
-        ( beta(Journal, Port, Before),
-          beta(Journal, Port, After) ),
-        host_stop(driver)).
+with_listener(Beta, Id, Goal) :-
+    with_beta(Beta, _, ( listener(Beta, Id), Goal ), true).
 
-beta(Journal, Port, Goal) :-
+beta(Journal, Port, Pid, Goal) :-
     project_file('test/chaos/lasting/node.pl', File),
     with_swipl([File, '--', beta, Port, Journal, normal, 1], Pid, In, Out,
                ( format(In, 'orders([]).~n', []),
                  flush_output(In),
                  read_line_to_string(Out, "ready"),
-                 nb_setval(channel_pid, Pid),
                  call(Goal) )).
 
 %   listener(+Host, -Id): an agent on Host that stores received messages.
@@ -86,38 +87,30 @@ hold(Kind) :-
     ).
 
 test(interrupted_post_does_not_block_others) :-
-    with_beta(
-        ( nb_getval(channel_beta, Beta),
-          listener(Beta, Id),
-          wrap_predicate(typhon_scheduler:scheduler_call(_), told_to_end, Wrapped,
+    with_listener(_, Id,
+        ( wrap_predicate(typhon_scheduler:scheduler_call(_), told_to_end, Wrapped,
                          ( plunit_channel:interrupt, Wrapped )),
           thread_self(Me),
           assertz(interrupted(Me)),
           catch(agent_send(Id, first), told_to_end, true),
           \+ interrupted(_),
           agent_send(Id, second),
-          got(Id, [first, second]) ),
-        true).
+          got(Id, [first, second]) )).
 
 %   The worker has posted, and not recorded it yet, when the process dies; it
 %   continues when there is a connection with the next process.
 
 test(unacknowledged_posts_are_sent_to_the_successor) :-
     message_queue_create(Gate, [alias(channel_gate)]),
-    with_beta(
-        ( nb_getval(channel_beta, Beta),
-          listener(Beta, Id),
-          nb_setval(channel_id, Id),
-          nb_getval(channel_pid, Pid),
+    with_beta(Beta, Pid,
+        ( listener(Beta, Id),
           stop_process(Pid),
           wrap_predicate(typhon_messaging:endpoint_post(_, Kind, _), posted,
                          Wrapped, ( Wrapped, plunit_channel:hold(Kind) )),
           assertz(held),
           agent_send(Id, hello),
           thread_get_message(Gate, posted) ),
-        ( nb_getval(channel_beta, Beta),
-          nb_getval(channel_id, Id),
-          remote(Beta, true),
+        ( remote(Beta, true),
           thread_send_message(Gate, on),
           got(Id, [hello]) )),
     message_queue_destroy(Gate).
@@ -127,19 +120,13 @@ test(unacknowledged_posts_are_sent_to_the_successor) :-
 test(unacknowledged_posts_to_a_second_port_are_sent_to_the_successor) :-
     free_port(Port),
     format(atom(Gamma), 'gamma@127.0.0.1:~d', [Port]),
-    with_beta(
-        ( nb_getval(channel_beta, Beta),
-          remote(Beta, typhon:host_start(gamma, [port(Port)])),
+    with_beta(Beta, Pid,
+        ( remote(Beta, typhon:host_start(gamma, [port(Port)])),
           listener(Gamma, Id),
-          nb_setval(channel_id, Id),
-          nb_getval(channel_pid, Pid),
           asked_for_ever(Gamma, Thread),
           stop_process(Pid),
-          agent_send(Id, hello),
-          nb_setval(channel_thread, Thread) ),
-        ( nb_getval(channel_id, Id),
-          nb_getval(channel_thread, Thread),
-          thread_join(Thread, exception(error(connection_lost(Gamma), _))),
+          agent_send(Id, hello) ),
+        ( thread_join(Thread, exception(error(connection_lost(Gamma), _))),
           got(Id, [hello]) )).
 
 %   asked_for_ever(+Host, -Thread): a remote goal that never ends is running on
@@ -168,7 +155,7 @@ entry_with(Change, Entry) :-
     memberchk(Change, Entry).
 
 test(refused_agent_keeps_its_queued_messages) :-
-    with_beta(( waits(Id), sent_nowhere(Id) ), true).
+    with_beta(Beta, Pid, ( waits(Id), sent_nowhere(Id, Beta, Pid) ), true).
 
 waits(Id) :-
     agent_create(clauses([ (:- agent(waits, [])), (main :- receive(never)) ]),
@@ -184,9 +171,7 @@ in_mailbox(Id, Messages) :-
 %   The agent gets an order to a missing host of a process that is suspended
 %   for a while.
 
-sent_nowhere(Id) :-
-    nb_getval(channel_beta, Beta),
-    nb_getval(channel_pid, Pid),
+sent_nowhere(Id, Beta, Pid) :-
     remote(Beta, true),
     atom_concat(beta, Place, Beta),
     atom_concat(missing, Place, Nowhere),
@@ -209,10 +194,9 @@ user:message_hook(typhon(order_failed(_, _)), warning, _).
 %   The whereabouts of the recipient say that it is on its way to this process.
 
 test(forwarded_message_is_moved_in_one_unit_of_work) :-
-    with_beta(
+    with_beta(Beta, _,
         ( typhon_endpoint:endpoint_address(Endpoint),
           atom_concat('driver@', Endpoint, Here),
-          nb_getval(channel_beta, Beta),
           atom_concat('late.abc.0@', Beta, Late),
           typhon_durable:durable_restore(gone, Late, 0, gone(Here, 1, unknown)),
           noting_entries,
@@ -237,21 +221,16 @@ text(Length, Text) :-
     format(string(Text), "~`xt~*|", [Length]).
 
 test(sender_of_a_too_long_message_gets_an_error) :-
-    with_beta(
-        ( nb_getval(channel_beta, Beta),
-          listener(Beta, Id),
-          text(90000, Long),
+    with_listener(_, Id,
+        ( text(90000, Long),
           small(( catch(agent_send(Id, Long), error(Formal, _), true),
                   agent_send(Id, short),
                   got(Id, [short]) )),
-          Formal == resource_error(frame_bytes) ),
-        true).
+          Formal == resource_error(frame_bytes) )).
 
 test(agent_sending_a_too_long_message_gets_an_error) :-
-    with_beta(
-        ( nb_getval(channel_beta, Beta),
-          listener(Beta, Id),
-          listener(driver, Near),
+    with_listener(_, Id,
+        ( listener(driver, Near),
           Clauses = [ (:- agent(says, [state([to/2])])),
                       (main :- to(Near1, Far),
                                format(string(Long), "~`xt~90000|", []),
@@ -265,27 +244,22 @@ test(agent_sending_a_too_long_message_gets_an_error) :-
                   got(Id, [short]) )),
           Formal == resource_error(frame_bytes),
           text(90000, Long0),
-          got(Near, [Long0]) ),
-        true).
+          got(Near, [Long0]) )).
 
 %   As if another codec needed more space than was estimated.
 
 test(message_that_became_too_long_is_reported_as_a_dead_letter) :-
     setting(typhon_session:frame_bytes, Bytes),
     call_cleanup(
-        with_beta(
-            ( nb_getval(channel_beta, Beta),
-              nb_getval(channel_pid, Pid),
-              listener(Beta, Id),
-              nb_setval(channel_id, Id),
+        with_beta(Beta, Pid,
+            ( listener(Beta, Id),
               process_kill(Pid, kill),
               process_wait(Pid, _),
               text(90000, Long),
               forall(member(Message, [first, Long, second]),
                      agent_send(Id, Message)),
               set_setting(typhon_session:frame_bytes, 70000) ),
-            ( nb_getval(channel_id, Id),
-              got(Id, [first, second]),
+            ( got(Id, [first, second]),
               wait_until(dead_letter_reported(Id,
                                               resource_error(frame_bytes)),
                          5) )),
@@ -294,10 +268,8 @@ test(message_that_became_too_long_is_reported_as_a_dead_letter) :-
 %   The whereabouts of the recipient say that it is on its way to this process.
 
 test(queued_messages_are_split_over_frames) :-
-    with_beta(
-        ( nb_getval(channel_beta, Beta),
-          listener(Beta, Id),
-          typhon_endpoint:endpoint_address(Endpoint),
+    with_listener(Beta, Id,
+        ( typhon_endpoint:endpoint_address(Endpoint),
           atom_concat('driver@', Endpoint, Here),
           typhon_durable:durable_restore(gone, Id, 0, gone(Here, 1, unknown)),
           text(30000, Text),
@@ -305,13 +277,11 @@ test(queued_messages_are_split_over_frames) :-
           small(( forall(member(N, Numbers), agent_send(Id, N-Text)),
                   typhon_whereabouts:agent_seen(Id, Beta, 2, unknown),
                   findall(N-Text, member(N, Numbers), All),
-                  got(Id, All) )) ),
-        true).
+                  got(Id, All) )) )).
 
 test(end_is_reported_without_a_too_long_result) :-
-    with_beta(
-        ( nb_getval(channel_beta, Beta),
-          host_property(driver, address(Driver)),
+    with_beta(Beta, _,
+        ( host_property(driver, address(Driver)),
           Clauses = [ (:- agent(leaves, [state([to/1])])),
                       (main :- to(To), move(To),
                                format(string(S), "~`xt~90000|", []),
@@ -323,16 +293,13 @@ test(end_is_reported_without_a_too_long_result) :-
         true).
 
 test(too_long_log_entry_is_reported) :-
-    with_beta(
-        ( nb_getval(channel_beta, Beta),
-          listener(Beta, Id),
-          host_change(driver, log(Beta)),
+    with_listener(Beta, Id,
+        ( host_change(driver, log(Beta)),
           agent_create(clauses([ (:- agent(logs, [state([to/1])])),
                                  (main :- format(string(S), "~`xt~90000|", []),
                                           log(S), to(To), send(To, logged)) ]),
                        A, [host(driver), facts([to(Id)])]),
-          small(( agent_join(A, done, 10), got(Id, [logged]) )) ),
-        true).
+          small(( agent_join(A, done, 10), got(Id, [logged]) )) )).
 
 :- dynamic told/1.
 
@@ -366,21 +333,19 @@ full :-
     wait_until(typhon_durable_changes:commit_error(_), 20).
 
 test(answer_waits_while_the_journal_is_full, Line == "answered") :-
-    no_leaks(with_tmp_dir(asked_while_full(Line))).
-
-asked_while_full(Line, Dir) :-
-    retractall(asked),
-    setup_call_cleanup(
-        host_start(driver, [journal(Dir)]),
-        ( host_property(driver, address(Driver)),
-          with_asker(Driver, In, Out,
-                     ( full,
-                       format(In, 'ask.~n', []),
-                       flush_output(In),
-                       wait_until(plunit_channel_full:asked, 20),
-                       pages(1000000),
-                       read_line_to_string(Out, Line) )) ),
-        host_stop(driver)).
+    no_leaks(with_tmp_dir(Dir,
+        ( retractall(asked),
+          setup_call_cleanup(
+              host_start(driver, [journal(Dir)]),
+              ( host_property(driver, address(Driver)),
+                with_asker(Driver, In, Out,
+                           ( full,
+                             format(In, 'ask.~n', []),
+                             flush_output(In),
+                             wait_until(plunit_channel_full:asked, 20),
+                             pages(1000000),
+                             read_line_to_string(Out, Line) )) ),
+              host_stop(driver)) ))).
 
 %   Prints `ready`, and `answered` when its question has been answered.
 
@@ -410,23 +375,20 @@ receiving_end(Loaded) :-
 
 test(plain_process_takes_posts_once_and_in_order,
      Loaded == [false, true]) :-
-    with_tmp_dir(posts_to_plain(Loaded)).
-
-posts_to_plain([Before, After], Dir) :-
-    with_peers([plain],
-               setup_call_cleanup(host_start(driver, [journal(Dir)]),
-                                  ( receiving_end(Before), posted_all ),
-                                  host_stop(driver))),
-    nb_getval(channel_after, After).
+    with_tmp_dir(Dir,
+        ( Loaded = [Before, After],
+          with_peers([plain],
+                     setup_call_cleanup(host_start(driver, [journal(Dir)]),
+                                        ( receiving_end(Before), posted_all,
+                                          receiving_end(After) ),
+                                        host_stop(driver))) )).
 
 posted_all :-
     peer_host(plain, Host),
     listener(Host, Id),
     numlist(1, 200, All),
     forall(member(N, All), agent_send(Id, N)),
-    got(Id, All),
-    receiving_end(After),
-    nb_setval(channel_after, After).
+    got(Id, All).
 
 :- end_tests(channel_plain).
 

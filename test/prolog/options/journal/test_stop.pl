@@ -110,9 +110,7 @@ test(step_that_the_stop_interrupts_happens_once, [setup(forget)]) :-
     no_leaks(with_tmp_dir(step)).
 
 step(Dir) :-
-    host_start(alpha, [journal(Dir)]),
-    keeper(Program),
-    agent_create(Program, Keeper),
+    kept(Dir, Keeper),
     gate(Gated),
     agent_create(Gated, Agent, [facts([to(Keeper)])]),
     wait_until(result(gate, 1, in), 20),
@@ -127,6 +125,13 @@ step(Dir) :-
           got(Keeper, [one, two]),
           remote(alpha, findall(X, sense(left(X)), [here])) )),
     forget.
+
+%   A host with an agent that stores its messages.
+
+kept(Dir, Keeper) :-
+    host_start(alpha, [journal(Dir)]),
+    keeper(Program),
+    agent_create(Program, Keeper).
 
 keeper(clauses([ (:- agent(keeper, [state([got/1])])),
                  (on_message(_, M) :- assertz(got(M))) ])).
@@ -206,34 +211,27 @@ all_came(Keeper, Sent) :-
 
 %   Each of these is a step of a stop.
 
-stop_does(typhon_durable_changes:durable_close).
-stop_does(typhon_hosting:evacuate(_, _)).
-stop_does(typhon_links:host_unlink(_, _)).
-stop_does(typhon_events:event(_, _, _, _)).
-stop_does(typhon_events:events_forget(_)).
-stop_does(typhon_clocks:clock_clear(_)).
-stop_does(typhon_place:place_destroy(_)).
-stop_does(typhon_endpoint:endpoint_stop).
-stop_does(typhon_connection_manager:manager_end).
-stop_does(typhon_time:time_stop).
-stop_does(typhon_durable_changes:durable_end).
-stop_does(typhon_code:code_clear).
+stop_does(Step) :-
+    member(Step,
+           [ typhon_durable_changes:durable_close,
+             typhon_hosting:evacuate(_, _), typhon_links:host_unlink(_, _),
+             typhon_events:event(_, _, _, _), typhon_events:events_forget(_),
+             typhon_clocks:clock_clear(_), typhon_place:place_destroy(_),
+             typhon_endpoint:endpoint_stop, typhon_time:time_stop,
+             typhon_connection_manager:manager_end,
+             typhon_durable_changes:durable_end, typhon_code:code_clear ]).
 
 test(host_starts_again_whatever_step_of_its_stop_raises,
      [forall(stop_does(Step))]) :-
-    no_leaks(with_tmp_dir(raised_at(Step))).
-
-raised_at(Step, Dir) :-
-    host_start(alpha, [journal(Dir)]),
-    keeper(Program),
-    agent_create(Program, Keeper),
-    agent_send(Keeper, one),
-    setup_call_cleanup(
-        wrap_predicate(Step, stop, Wrapped,
-                       plunit_stop:done_and_raise(Wrapped)),
-        quietly(host_stop(alpha)),
-        unwrapped(Step)),
-    running(Dir, got(Keeper, [one])).
+    no_leaks(with_tmp_dir(Dir,
+        ( kept(Dir, Keeper),
+          agent_send(Keeper, one),
+          setup_call_cleanup(
+              wrap_predicate(Step, stop, Wrapped,
+                             plunit_stop:done_and_raise(Wrapped)),
+              quietly(host_stop(alpha)),
+              unwrapped(Step)),
+          running(Dir, got(Keeper, [one])) ))).
 
 unwrapped(Module:Head) :-
     functor(Head, Name, Arity),
@@ -254,23 +252,19 @@ quietly(Goal) :-
         erase(Hook)).
 
 test(last_commit_that_fails_does_not_hinder_the_stop, [setup(forget)]) :-
-    no_leaks(with_tmp_dir(full)).
-
-full(Dir) :-
-    host_start(alpha, [journal(Dir)]),
-    keeper(Program),
-    agent_create(Program, Keeper),
-    agent_send(Keeper, one),
-    got(Keeper, [one]),
-    sync_changes,
-    setup_call_cleanup(
-        wrap_predicate(typhon_store:store_commit(_), stop, _,
-                       throw(error(resource_error(journal_space), _))),
-        quietly(( catch(agent_send(Keeper, two), error(Formal, _), true),
-                  host_stop(alpha) )),
-        unwrap_predicate(typhon_store:store_commit/1, stop)),
-    assertion(Formal == resource_error(journal_space)),
-    running(Dir, got(Keeper, [one])).
+    no_leaks(with_tmp_dir(Dir,
+        ( kept(Dir, Keeper),
+          agent_send(Keeper, one),
+          got(Keeper, [one]),
+          sync_changes,
+          setup_call_cleanup(
+              wrap_predicate(typhon_store:store_commit(_), stop, _,
+                             throw(error(resource_error(journal_space), _))),
+              quietly(( catch(agent_send(Keeper, two), error(Formal, _), true),
+                        host_stop(alpha) )),
+              unwrap_predicate(typhon_store:store_commit/1, stop)),
+          assertion(Formal == resource_error(journal_space)),
+          running(Dir, got(Keeper, [one])) ))).
 
 test(one_of_two_threads_stops_the_host) :-
     no_leaks(with_tmp_dir(both)).
@@ -291,9 +285,7 @@ test(stop_goes_on_when_its_caller_is_interrupted) :-
     no_leaks(with_tmp_dir(interrupted)).
 
 interrupted(Dir) :-
-    host_start(alpha, [journal(Dir)]),
-    keeper(Program),
-    agent_create(Program, Keeper),
+    kept(Dir, Keeper),
     with_mutex(typhon_commit,           % the last commit waits
                ( in_thread(host_stop(alpha), Thread),
                  wait_until(durable_closed, 20),
@@ -303,26 +295,20 @@ interrupted(Dir) :-
     running(Dir, agent_property(Keeper, state(_))).
 
 test(other_host_starts_while_a_host_stops) :-
-    no_leaks(with_tmp_dir(beside)).
-
-beside(Dir) :-
-    forall(between(1, 5, _),
-           ( host_start(alpha, [journal(Dir)]),
-             in_thread(host_stop(alpha), Thread),
-             host_start(beta),
-             thread_join(Thread, true),
-             host_stop(beta) )).
+    no_leaks(with_tmp_dir(Dir,
+        ( forall(between(1, 5, _),
+                 ( host_start(alpha, [journal(Dir)]),
+                   in_thread(host_stop(alpha), Thread),
+                   host_start(beta),
+                   thread_join(Thread, true),
+                   host_stop(beta) )) ))).
 
 test(join_ends_when_the_host_of_the_agent_stops) :-
-    no_leaks(with_tmp_dir(joined)).
-
-joined(Dir) :-
-    host_start(alpha, [journal(Dir)]),
-    keeper(Program),
-    agent_create(Program, Keeper),
-    in_thread(catch(agent_join(Keeper, _, 5), error(_, _), true), Thread),
-    host_stop(alpha),
-    thread_join(Thread, true),
-    running(Dir, agent_property(Keeper, state(_))).
+    no_leaks(with_tmp_dir(Dir,
+        ( kept(Dir, Keeper),
+          in_thread(catch(agent_join(Keeper, _, 5), error(_, _), true), Thread),
+          host_stop(alpha),
+          thread_join(Thread, true),
+          running(Dir, agent_property(Keeper, state(_))) ))).
 
 :- end_tests(stop).

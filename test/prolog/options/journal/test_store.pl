@@ -52,34 +52,28 @@ no_key(Half, 0) :-
 
 test(other_process_is_locked_out,
      [error(permission_error(open, journal, _))]) :-
-    with_tmp_dir(locked).
-
-locked(Dir) :-
-    while_open_elsewhere(Dir, _, with_store(Dir, true)).
+    with_tmp_dir(Dir,
+        ( while_open_elsewhere(Dir, _, with_store(Dir, true)) )).
 
 %   1 survives the end of the process, 2 a power failure as well.
 
 test(commits_are_synced_on_demand,
      [ forall(member(Sync-Expected, [normal-1, full-2])),
        true(Synchronous == Expected) ]) :-
-    with_tmp_dir(synced(Sync, Synchronous)).
-
-synced(Sync, Synchronous, Dir) :-
-    with_store(Dir, Sync,
-               ( typhon_store:connection(_, Connection),
-                 odbc:odbc_query(Connection, 'pragma synchronous',
-                                 row(Synchronous), [types([integer])]) )).
+    with_tmp_dir(Dir,
+        ( with_store(Dir, Sync,
+                     ( typhon_store:connection(_, Connection),
+                       odbc:odbc_query(Connection, 'pragma synchronous',
+                                       row(Synchronous), [types([integer])]) )) )).
 
 test(foreign_file_is_not_touched,
      [error(journal_damaged(_, _))]) :-
-    with_tmp_dir(garbage).
-
-garbage(Dir) :-
-    directory_file_path(Dir, 'journal.db', File),
-    setup_call_cleanup(open(File, write, Out),
-                       forall(between(1, 5000, I), writeln(Out, I)),
-                       close(Out)),
-    unchanged(File, with_store(Dir, true)).
+    with_tmp_dir(Dir,
+        ( directory_file_path(Dir, 'journal.db', File),
+          setup_call_cleanup(open(File, write, Out),
+                             forall(between(1, 5000, I), writeln(Out, I)),
+                             close(Out)),
+          unchanged(File, with_store(Dir, true)) )).
 
 :- meta_predicate unchanged(+, 0).
 
@@ -113,22 +107,18 @@ damaged_page(Dir) :-
 
 test(damaged_term_is_detected,
      [error(journal_damaged(_, a-k))]) :-
-    with_tmp_dir(damaged).
-
-damaged(Dir) :-
-    with_store(Dir, commit([a-k-0-hello(world), b-k-0-hello(wordl)])),
-    sql(Dir, 'update item set value=(select value from item \c
-              where kind=\'b\') where kind=\'a\''),
-    with_store(Dir, items(a, _)).
+    with_tmp_dir(Dir,
+        ( with_store(Dir, commit([a-k-0-hello(world), b-k-0-hello(wordl)])),
+          sql(Dir, 'update item set value=(select value from item \c
+                    where kind=\'b\') where kind=\'a\''),
+          with_store(Dir, items(a, _)) )).
 
 test(journal_of_another_version_is_refused,
      [error(journal_version(_, 99))]) :-
-    with_tmp_dir(version).
-
-version(Dir) :-
-    with_store(Dir, commit([a-k-0-hello])),
-    sql(Dir, 'update about set version=99'),
-    with_store(Dir, true).
+    with_tmp_dir(Dir,
+        ( with_store(Dir, commit([a-k-0-hello])),
+          sql(Dir, 'update about set version=99'),
+          with_store(Dir, true) )).
 
 sql(Dir, Sql) :-
     directory_file_path(Dir, 'journal.db', File),
