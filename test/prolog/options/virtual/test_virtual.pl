@@ -1,6 +1,7 @@
 :- module(test_virtual, []).
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/fixtures').
+:- use_module('../../../lib/networks').
 :- use_module('../../../lib/peers').
 :- use_module(library(plunit)).
 :- use_module(library(apply), [maplist/2, maplist/3]).
@@ -19,11 +20,7 @@
 %   with_virtual(+Options, -Network, :Goal): a ring of four hosts.
 
 with_virtual(Options, Network, Goal) :-
-    no_leaks(setup_call_cleanup(
-                 network_start(ring(4), Network,
-                               [clock(virtual), seed(7)|Options]),
-                 once(Goal),
-                 network_stop(Network))).
+    with_network(ring(4), [clock(virtual), seed(7)|Options], Network, Goal).
 
 first_host(Network, Host) :-
     network_property(Network, hosts([Host|_])).
@@ -83,23 +80,24 @@ test(agents_stop_when_the_wait_is_over, true(Marks == [])) :-
                    agent_join(A, done, 60),
                    with_tmp_dir(test_virtual:saved(N)), % a request to the loop
                    remote(Host, findall(x, sense(mark), Marks)) )).
+
+%   waits(-Main, -Seconds): Main takes so long in virtual time.
+
+waits(sleep(5), 5.0).
+waits(( receive(never, 40) -> true ; true ), 40.0).
+waits(( thread_self(Me), \+ thread_get_message(Me, '$never', [timeout(0.05)]),
+        sleep(1) ), 1.0).
+
+test(waits_take_virtual_time,
+     [forall(waits(Main, Seconds)), true(Time-Outcome == Seconds-done)]) :-
+    with_virtual([], N,
+                 ( sleeper(N, Main, A),
+                   agent_join(A, Outcome, 100),
+                   shows(N, Time) )).
 test(join_times_out_in_virtual_time, true(Outcome-Time == timeout-30.0)) :-
     with_virtual([], N,
                  ( sleeper(N, sleep(100), A),
                    agent_join(A, Outcome, 30),
-                   shows(N, Time) )).
-test(receive_times_out_in_virtual_time, true(Time == 40.0)) :-
-    with_virtual([], N,
-                 ( sleeper(N, ( receive(never, 40) -> true ; true ), A),
-                   agent_join(A, done, 100),
-                   shows(N, Time) )).
-test(blocking_goal_takes_no_virtual_time, true(Time == 1.0)) :-
-    with_virtual([], N,
-                 ( sleeper(N, ( thread_self(Me),
-                                \+ thread_get_message(Me, '$never',
-                                                      [timeout(0.05)]),
-                                sleep(1) ), A),
-                   agent_join(A, done, 60),
                    shows(N, Time) )).
 test(messages_and_orders, true(Got-Ended == [1,2,3]-disposed)) :-
     with_virtual([], N,
@@ -137,16 +135,14 @@ test(agents_run_in_the_order_in_which_they_became_ready,
                      message_queue_destroy(Queue))).
 test(network_clock_counts_from_its_start, true) :-
     get_time(T0),
-    no_leaks(setup_call_cleanup(
-                 network_start(ring(2), N, [clock(10)]),
+    with_network(ring(2), [clock(10)], N,
                  ( get_time(T1),
                    shows(N, Now1),
                    get_time(T2),
                    network_advance(N, 1),
                    get_time(T3),
                    shows(N, Now2),
-                   get_time(T4) ),
-                 network_stop(N))),
+                   get_time(T4) )),
     between_times(0, 10*(T2-T0), Now1),
     between_times(10*(T3-T2), 10*(T4-T1), Now2-Now1).
 test(order_is_executed_while_its_caller_waits) :-
@@ -184,25 +180,25 @@ between_times(Min, Max, X) :-
 
 :- begin_tests(virtual_appointments).
 
+%   heard(-Network, -Queue, :Goal, -Heard): what Goal puts into the Queue.
+
+:- meta_predicate heard(-, -, 0, -).
+
+heard(N, Queue, Goal, Heard) :-
+    with_virtual([], N, with_queue(Queue, ( Goal, noted(Queue, Heard) ))).
+
 test(appointments_run_in_order, true(Heard == [a-1.0,b-2.0,c-2.0,late-3.0])) :-
-    with_virtual([], N,
-                 with_queue(Queue,
-                            ( network_at(N, 2, note_time(Queue, N, b)),
-                              network_at(N, 2, note_time(Queue, N, c)),
-                              network_at(N, 1, note_time(Queue, N, a)),
-                              network_advance(N, 3),
-                              network_at(N, 1, note_time(Queue, N, late)),
-                              network_advance(N, 10),
-                              noted(Queue, Heard) ))).
+    heard(N, Queue, ( network_at(N, 2, note_time(Queue, N, b)),
+                      network_at(N, 2, note_time(Queue, N, c)),
+                      network_at(N, 1, note_time(Queue, N, a)),
+                      network_advance(N, 3),
+                      network_at(N, 1, note_time(Queue, N, late)),
+                      network_advance(N, 10) ), Heard).
 test(appointments_of_an_instant_run_in_their_order, true(Heard == Numbers)) :-
     numlist(1, 20, Numbers),
-    with_virtual([], N,
-                 with_queue(Queue,
-                            ( forall(member(I, Numbers),
-                                     network_at(N, 2, thread_send_message(
-                                                          Queue, I))),
-                              network_advance(N, 3),
-                              noted(Queue, Heard) ))).
+    heard(N, Queue, ( forall(member(I, Numbers),
+                             network_at(N, 2, thread_send_message(Queue, I))),
+                      network_advance(N, 3) ), Heard).
 test(no_appointment_after_the_end, true(Heard == [])) :-
     with_queue(Queue,
                ( with_virtual([], N, network_at(N, 5, note_time(Queue, N, a))),
@@ -215,25 +211,17 @@ test(advance_reaches_its_time, true(Times == [2.5,2.5,4.0])) :-
     Times = [T1,T2,T3].
 test(appointments_in_real_time, true(Heard == [a])) :-
     with_queue(Queue,
-               ( no_leaks(setup_call_cleanup(
-                              network_start(ring(2), N, [clock(1000)]),
-                              ( network_at(N, 20,
-                                           thread_send_message(Queue, a)),
-                                network_advance(N, 200),
-                                wait_until(message_queue_property(Queue,
-                                                                  size(1)), 20)
-                              ),
-                              network_stop(N))),
+               ( with_network(ring(2), [clock(1000)], N,
+                     ( network_at(N, 20, thread_send_message(Queue, a)),
+                       network_advance(N, 200),
+                       wait_until(message_queue_property(Queue, size(1)),
+                                  20) )),
                  noted(Queue, Heard) )).
 test(called_goal_cannot_wait, true(Heard == [timeout-1.0])) :-
-    with_virtual([], N,
-                 with_queue(Queue,
-                            ( sleeper(N, sleep(5), A),
-                              network_at(N, 1,
-                                         ( agent_join(A, Outcome, 10),
-                                           note_time(Queue, N, Outcome) )),
-                              network_advance(N, 10),
-                              noted(Queue, Heard) ))).
+    heard(N, Queue, ( sleeper(N, sleep(5), A),
+                      network_at(N, 1, ( agent_join(A, Outcome, 10),
+                                         note_time(Queue, N, Outcome) )),
+                      network_advance(N, 10) ), Heard).
 test(network_end_ends_the_wait) :-
     no_leaks(( network_start(ring(4), N, [clock(virtual)]),
                sleeper(N, days(1000000000), _),
@@ -241,19 +229,17 @@ test(network_end_ends_the_wait) :-
                                network_stop(N) ), Stops),
                call_with_time_limit(30, network_advance(N, 1.0e15)),
                thread_join(Stops, true) )).
-test(no_such_network,
-     error(existence_error(network, no_network))) :-
-    network_advance(no_network, 1).
-test(not_callable, [ forall(member(Goal-Formal,
-                                   [ _-instantiation_error,
-                                     3-type_error(callable, 3) ])),
-                     error(Formal) ]) :-
-    with_virtual([], N, network_at(N, 1, Goal)).
-test(unknown_network_of_an_appointment,
-     error(existence_error(network, no_network))) :-
-    network_at(no_network, 1, true).
-test(time_is_no_number, error(type_error(number, soon))) :-
-    with_virtual([], N, network_advance(N, soon)).
+test(bad_appointment,
+     [ forall(member(Goal-Formal,
+                     [ network_advance(no_network, 1)-
+                       existence_error(network, no_network),
+                       network_at(no_network, 1, true)-
+                       existence_error(network, no_network),
+                       network_at(N, 1, _)-instantiation_error,
+                       network_at(N, 1, 3)-type_error(callable, 3),
+                       network_advance(N, soon)-type_error(number, soon) ])),
+       error(Formal) ]) :-
+    with_virtual([], N, Goal).
 
 :- end_tests(virtual_appointments).
 
@@ -273,16 +259,12 @@ test(busy_machine_does_not_change_the_log, true(A == B)) :-
 :- end_tests(virtual_runs_are_alike).
 
 drawn(Seed, X) :-
-    no_leaks(setup_call_cleanup(
-                 network_start(ring(4), N, [clock(virtual), seed(Seed)]),
-                 ( first_host(N, Host),
-                   agent_create(clauses([ (:- agent(drawer, [state([x/1])])),
-                                          (main :- random(X), assertz(x(X))),
-                                          on_message(_, _) ]),
+    with_network(ring(4), [clock(virtual), seed(Seed)], N, [Host|_],
+                 ( agent_create(clauses([ (:- agent(drawer, [])),
+                                          (main :- random(X0), result(X0)) ]),
                                 Agent, [host(Host)]),
                    network_advance(N, 1),
-                   agent_property(Agent, facts([x(X)])) ),
-                 network_stop(N))).
+                   agent_result(Agent, X, 1) )).
 
 two_logs(Seed1, Seed2, A, B, Dir) :-
     maplist(log_of(Dir), [Seed1,Seed2], [A,B]).
@@ -293,13 +275,10 @@ log_of(Dir, Seed, Text) :-
     read_file_to_string(File, Text, []).
 
 wander(Seed, File) :-
-    no_leaks(setup_call_cleanup(
-                 network_start(grid(3, 3), N,
-                               [ clock(virtual), seed(Seed), log(File),
-                                 hop_time(uniform(0.1, 0.9)),
-                                 dynamic(links(uniform(1, 3), 0.3, 0.5)) ]),
-                 wanderers(N),
-                 network_stop(N))).
+    with_network(grid(3, 3),
+                 [ clock(virtual), seed(Seed), log(File),
+                   hop_time(uniform(0.1, 0.9)),
+                   dynamic(links(uniform(1, 3), 0.3, 0.5)) ], N, wanderers(N)).
 
 wanderers(N) :-
     network_property(N, hosts(Hosts)),
@@ -350,11 +329,9 @@ thread_end(Thread) :-
 :- begin_tests(virtual_limits).
 
 test(virtual_time_needs_one_process,
-     error(permission_error(carry, virtual_time, processes(2)))) :-
-    network_start(ring(4), _, [clock(virtual), processes(2)]).
-test(machines_are_refused,
-     error(permission_error(carry, virtual_time, machines([far])))) :-
-    network_start(ring(4), _, [clock(virtual), machines([far])]).
+     [ forall(member(Option, [processes(2), machines([far])])),
+       error(permission_error(carry, virtual_time, Option)) ]) :-
+    network_start(ring(4), _, [clock(virtual), Option]).
 test(real_host_beside_a_virtual_one_is_refused,
      error(permission_error(change, kind_of_time, real))) :-
     with_virtual([], _, host_start(another)).
@@ -362,11 +339,8 @@ test(virtual_host_beside_a_real_one_is_refused,
      error(permission_error(change, kind_of_time, virtual))) :-
     with_hosts([one], host_start(two, [clock(virtual)])).
 test(single_virtual_host, true(Time == 9.0)) :-
-    with_hosts([one-[clock(virtual)]],
-               ( agent_create(clauses([(:- agent(a)), (main :- sleep(9))]),
-                              A),
-                 agent_join(A, done, 20),
-                 remote(one, now(Time)) )).
+    result_on([one-[clock(virtual)]],
+              [(main :- sleep(9), now(T), result(T))], Time).
 test(other_processes_are_unreachable, true(Outcome == done)) :-
     with_peers([a],
                ( peer_host(a, Far),
