@@ -16,31 +16,22 @@ A host of a child process is named like one of this process.
 %   takes(+Host, -Goal): Goal has the argument Host, at the position that
 %   host_position/2 names.  The other host is inn, the agent bob.
 
-takes(H, agent_create(clauses([(:- agent(a)), main]), _, [host(H)])).
-takes(H, agent_move(bob, H)).
-takes(H, agent_move(bob, H, [wait(10)])).
-takes(H, agent_load(File, _, [host(H)])) :- nb_getval(test_saved, File).
-takes(H, remote(H, neighbours(_))).
-takes(H, host_property(H, load(_))).
-takes(H, host_property(H, neighbours(_))).
-takes(H, host_change(H, capacity(7))).
-takes(H, link(inn, H)).
-takes(H, link(inn, H, [cost(2)])).
-takes(H, link(H, inn)).
-takes(H, unlink(H, inn)).
-takes(H, unlink(inn, H)).
-takes(H, watched(H)).
-takes(H, watched([inn,H])).
-takes(H, shown(H)).
-takes(H, bridged(fipa_start(H, 'http://localhost:0', []), fipa_stop(H))).
-takes(H, python_start(H, '/no/such.py', [])).
-takes(H, python_stop(H)).
-takes(H, mqtt_start(H, 'mqtt://localhost:1', [wait(false)])).
-takes(H, mqtt_stop(H)).
-takes(H, ros_start(H, 'ws://localhost:1', [])).
-takes(H, ros_stop(H)).
-takes(H, ros_property(H, _)).
-takes(H, host_stop(H)).
+takes(H, Goal) :-
+    nb_getval(test_saved, File),
+    member(Goal,
+           [ agent_create(clauses([(:- agent(a)), main]), _, [host(H)]),
+             agent_move(bob, H), agent_move(bob, H, [wait(10)]),
+             agent_load(File, _, [host(H)]), remote(H, neighbours(_)),
+             host_property(H, load(_)),
+             host_property(H, neighbours(_)), host_change(H, capacity(7)),
+             link(inn, H), link(inn, H, [cost(2)]), link(H, inn),
+             unlink(H, inn), unlink(inn, H), watched(H), watched([inn,H]),
+             shown(H),
+             bridged(fipa_start(H, 'http://localhost:0', []), fipa_stop(H)),
+             python_start(H, '/no/such.py', []), python_stop(H),
+             mqtt_start(H, 'mqtt://localhost:1', [wait(false)]), mqtt_stop(H),
+             ros_start(H, 'ws://localhost:1', []), ros_stop(H),
+             ros_property(H, _), host_stop(H) ]).
 
 :- public watched/1, shown/1, bridged/2.
 

@@ -101,35 +101,22 @@ written(Text, Result, Length) :-
                 *           OUTCOMES           *
                 *******************************/
 
-control(move(x)).
-control(clone(_)).
-control(clone(_, [])).
-control(sleep(1)).
-control(sleep_until(1.5)).
-control(receive(_)).
-control(receive(_, 1)).
-control(receive_until(_, 1, 2)).
-control(dispose).
+control(Goal) :-
+    member(Goal,
+           [ move(x), clone(_), clone(_, []), sleep(1), sleep_until(1.5),
+             receive(_), receive(_, 1), receive_until(_, 1, 2), dispose ]).
 
-no_outcome(held).
-no_outcome(over(x)).
-no_outcome(raised(_)).
-no_outcome(raised('$aborted')).
-no_outcome(raised(unwind(x))).
-no_outcome(effect(move(x), h, [])).
-no_outcome(effect(_, _, [])).
-no_outcome(effect(halt, _, [])).
-no_outcome(effect('$fault'(x), _, [])).
-no_outcome(effect(user:move(x), _, [])).
-no_outcome(effect(move(x, y), _, [])).
-no_outcome(effect(sleep_until(x), _, [])).
-no_outcome(effect(sleep_until(_), _, [])).
-no_outcome(effect(receive_until(_, x, _), _, [])).
-no_outcome(effect(receive_until(_, 1), _, [])).
-no_outcome(effect(move(x), _, x)).
-no_outcome(effect(move(x), _, [x|_])).
-no_outcome(effect(move(x), _, [1])).
-no_outcome(effect(move(x), _, [a,'$fault'(x)])).
+no_outcome(Term) :-
+    member(Term,
+           [ held, over(x), raised(_), raised('$aborted'), raised(unwind(x)),
+             effect(move(x), h, []), effect(_, _, []), effect(halt, _, []),
+             effect('$fault'(x), _, []), effect(user:move(x), _, []),
+             effect(move(x, y), _, []), effect(sleep_until(x), _, []),
+             effect(sleep_until(_), _, []),
+             effect(receive_until(_, x, _), _, []),
+             effect(receive_until(_, 1), _, []), effect(move(x), _, x),
+             effect(move(x), _, [x|_]), effect(move(x), _, [1]),
+             effect(move(x), _, [a,'$fault'(x)]) ]).
 
 :- begin_tests(cell_results).
 

@@ -291,38 +291,23 @@ text(N, Atom) :-
 
 %   makes(+Text, -Goal): Goal makes atoms of Text, which is all its input.
 
-makes(T, atom_concat(T, '', _)).
-makes(T, atom_concat('', T, _)).
-makes(T, atomic_list_concat([T], _)).
-makes(T, atomic_list_concat([T], x, _)).
-makes(T, atom_codes(T, _)).
-makes(T, atom_chars(T, _)).
-makes(T, atom_string(_, T)).
-makes(T, atom_number(T, _)).
-makes(T, upcase_atom(T, _)).
-makes(T, downcase_atom(T, _)).
-makes(T, sub_atom(T, _, _, _, _)).
-makes(T, sub_atom_icasechk(T, _, _)).
-makes(T, hash_atom([T], _)).
-makes(T, file_base_name(T, _)).
-makes(T, file_directory_name(T, _)).
-makes(T, file_name_extension(T, '', _)).
-makes(T, uri_components(_, uri_components(T, _, _, _, _))).
-makes(T, uri_authority_components(T, _)).
-makes(T, uri_query_components(T, _)).
-makes(T, uri_encoded(_, T, _)).
-makes(T, uri_is_global(T)).
-makes(T, uri_iri(T, _)).
-makes(T, uri_normalized(T, _)).
-makes(T, uri_normalized(T, '', _)).
-makes(T, uri_normalized_iri(T, _)).
-makes(T, uri_normalized_iri(T, '', _)).
-makes(T, uri_resolve(T, '', _)).
-makes(T, iri_normalized(T, _)).
-makes(T, iri_normalized(T, '', _)).
-makes(T, term_to_atom(_, T)).
-makes(T, term_string(_, T)).
-makes(T, atom_to_term(T, _, _)).
+makes(T, Goal) :-
+    member(Goal,
+           [ atom_concat(T, '', _), atom_concat('', T, _),
+             atomic_list_concat([T], _), atomic_list_concat([T], x, _),
+             atom_codes(T, _), atom_chars(T, _), atom_string(_, T),
+             atom_number(T, _), upcase_atom(T, _), downcase_atom(T, _),
+             sub_atom(T, _, _, _, _), sub_atom_icasechk(T, _, _),
+             hash_atom([T], _), file_base_name(T, _),
+             file_directory_name(T, _), file_name_extension(T, '', _),
+             uri_components(_, uri_components(T, _, _, _, _)),
+             uri_authority_components(T, _), uri_query_components(T, _),
+             uri_encoded(_, T, _), uri_is_global(T), uri_iri(T, _),
+             uri_normalized(T, _), uri_normalized(T, '', _),
+             uri_normalized_iri(T, _), uri_normalized_iri(T, '', _),
+             uri_resolve(T, '', _), iri_normalized(T, _),
+             iri_normalized(T, '', _), term_to_atom(_, T), term_string(_, T),
+             atom_to_term(T, _, _) ]).
 
 :- begin_tests(guard_bounds).
 

@@ -63,21 +63,11 @@ loads(Count) :-
 
 %   path(-Spec): no name of a library.
 
-path(library('../evil')).
-path(library(('..')/evil)).
-path(library(in/('..')/free)).
-path(library('in/../../evil')).
-path(library('in/deep')).
-path(library('./free')).
-path(library('free.pl')).
-path(library(('.')/free)).
-path(library('~/evil')).
-path(library('$HOME/evil')).
-path(library('*')).
-path(library("free")).
-path(library(free(x))).
-path(library('')).
-path(library([])).
+path(library(Name)) :-
+    member(Name,
+           [ '../evil', ('..')/evil, in/('..')/free, 'in/../../evil',
+             'in/deep', './free', 'free.pl', ('.')/free, '~/evil',
+             '$HOME/evil', '*', "free", free(x), '', [] ]).
 path(library(File)) :-
     folder(Dir),
     directory_file_path(Dir, evil, File).

@@ -364,18 +364,11 @@ what(What) :-
                    tuples,messages,log,facts,hops,calls(p/1),state,seconds,
                    stack,bogus ]).
 
-default(seconds, 5).
-default(stack, 67 108 864).
-default(state, 16 777 216).
-default(cells, 200 000).
-default(clones, 100).
-default(payloads, 100).
-default(tuples, 10 000).
-default(mailbox, 10 000).
-default(messages, 10 000).
-default(facts, 10 000).
-default(hops, 10 000).
-default(log, 1000).
+default(What, Most) :-
+    member(What-Most,
+           [ seconds-5, stack-67 108 864, state-16 777 216, cells-200 000,
+             clones-100, payloads-100, tuples-10 000, mailbox-10 000,
+             messages-10 000, facts-10 000, hops-10 000, log-1000 ]).
 
 :- begin_tests(quotas_in_force).
 
