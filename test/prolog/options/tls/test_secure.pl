@@ -4,14 +4,14 @@
 
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/authority').
+:- use_module('../../../lib/networks').
 :- use_module('../../../lib/peers').
 :- use_module(library(apply), [maplist/2]).
-:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(prolog_wrap), [unwrap_predicate/2, wrap_predicate/4]).
 :- use_module(library(readutil), [read_line_to_string/2]).
-:- use_module(library(settings), [set_setting/2, setting/2]).
 :- use_module(library(socket)).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/wire), [endpoint_proof/2, endpoint_reply/2]).
@@ -35,18 +35,36 @@ typhon_endpoint:requested(who_am_i, _, Peer, ReplyTo) :-
     endpoint_proof(Peer, Proof),
     endpoint_reply(ReplyTo, Proof).
 
-:- meta_predicate with_secure_host(+, 1).
+%   with_keys(+Names, -Ours, :Goal): an authority with the hosts Names;
+%   with_secure_host(+Ours, -Address, :Goal): the host alpha of Ours;
+%   with_beta(-Dir, -Address, :Goal): and the process beta, with the keys Dir.
 
-%   with_secure_host(+Authority, :Goal): call(Goal, Address).
+:- meta_predicate
+    with_keys(+, -, 0),
+    with_secure_host(+, -, 0),
+    with_beta(-, -, 0).
 
-with_secure_host(Authority, Goal) :-
-    keys_of(alpha, Authority, Dir),
+with_keys(Names, Ours, Goal) :-
+    with_authority(Names, [], test_secure:called_with(Ours, Goal)).
+
+:- meta_predicate called_with(-, 0, +).
+
+called_with(Ours, Goal, Ours) :-
+    once(Goal).
+
+with_secure_host(Ours, Address, Goal) :-
+    keys_of(alpha, Ours, Dir),
     retractall(told(_)),
     setup_call_cleanup(
         host_start(alpha, [tls(Dir)]),
-        ( host_property(alpha, address(Address)),
-          once(call(Goal, Address)) ),
+        ( host_property(alpha, address(Address)), once(Goal) ),
         host_stop(alpha)).
+
+with_beta(Dir, Address, Goal) :-
+    with_keys([alpha, beta], Ours,
+        ( keys_of(beta, Ours, Dir),
+          with_peers([beta-[host([tls(Dir)])]],
+                     with_secure_host(Ours, Address, Goal)) )).
 
 %   The peer, with those keys, queries Address: Here is the reason for its
 %   refusal on its side, There the one on ours, or `ok`.
@@ -93,11 +111,8 @@ clients_connect(Ours, Others) :-
     findall(Keys-Verdict, connected(Ours, Others, Keys, Verdict), Clients),
     no_leaks(with_peers([beta],
         forall(member(Keys-Expected, Clients),
-               ( with_secure_host(Ours, comes(Keys, Verdict)),
+               ( with_secure_host(Ours, Address, tries(Keys, Address, Verdict)),
                  assertion(Verdict == Expected) )))).
-
-comes(Keys, Verdict, Address) :-
-    tries(Keys, Address, Verdict).
 
 connected(Ours, Others, [tls(Dir)], Verdict) :-
     came(Of, Name, Verdict),
@@ -114,93 +129,68 @@ came(ours, alice, tls(his(wrong_use))-tls(wrong_use)).
 came(ours, self, tls(his(foreign))-tls(self_made)).
 came(others, beta, tls(foreign)-tls(his(foreign))).
 
-test(thread_interrupted_after_a_handshake_leaves_nothing_open) :-
-    with_authority([alpha, beta], [], interrupted).
-
-interrupted(Ours) :-
-    keys_of(beta, Ours, Dir),
-    no_leaks(with_peers([beta],
-        setup_call_cleanup(
-            wrap_predicate(ssl:ssl_negotiate(_, _, _, _, _), interrupted,
-                           Negotiated, test_secure:once_broken(Negotiated)),
-            with_secure_host(Ours, comes([tls(Dir)], Verdict)),
-            unwrap_predicate(ssl:ssl_negotiate/5, interrupted)))),
-    assertion(Verdict == ok-ok),
+test(thread_interrupted_after_a_handshake_leaves_nothing_open,
+     Verdict == ok-ok) :-
+    with_keys([alpha, beta], Ours,
+        ( keys_of(beta, Ours, Dir),
+          no_leaks(with_peers([beta],
+              setup_call_cleanup(
+                  wrap_predicate(ssl:ssl_negotiate(_, _, _, _, _), interrupted,
+                                 Negotiated,
+                                 test_secure:once_broken(Negotiated)),
+                  with_secure_host(Ours, Address,
+                                   tries([tls(Dir)], Address, Verdict)),
+                  unwrap_predicate(ssl:ssl_negotiate/5, interrupted)))) )),
     assertion(broken).
-
-test(tls_client_is_refused_by_a_host_without_keys) :-
-    with_authority([beta], [], plain_host).
-
-plain_host(Ours) :-
-    keys_of(beta, Ours, Dir),
-    setup_call_cleanup(
-        host_start(alpha),
-        ( host_property(alpha, address(Address)),
-          with_peers([beta], tries([tls(Dir)], Address, Verdict)) ),
-        host_stop(alpha)),
-    assertion(Verdict == tls(plain)-tls(unknown)).
-
-test(host_is_revoked_at_run_time) :-
-    with_authority([alpha, beta], [], revoked_meanwhile).
-
-revoked_meanwhile(Ours) :-
-    with_peers([beta], with_secure_host(Ours, revoked_meanwhile(Ours))).
-
-revoked_meanwhile(Ours, Address) :-
-    keys_of(beta, Ours, Dir),
-    tries([tls(Dir)], Address, Before),
-    keys_revoke(beta, Ours),
-    tries([tls(Dir)], Address, After),
-    assertion(Before-After == (ok-ok)-(tls(his(revoked))-tls(revoked))).
-
-test(hook_gets_the_proof_of_the_peer) :-
-    with_authority([alpha, beta], [], peer_is_known).
-
-peer_is_known(Ours) :-
-    keys_of(beta, Ours, Dir),
-    with_peers([beta-[host([tls(Dir)])]],
-               with_secure_host(Ours, asked_by(beta, Proof))),
-    assertion(Proof == certificate(beta)).
-
-asked_by(Peer, Proof, Address) :-
-    atomic_list_concat([_, Endpoint], @, Address),
-    peer_do(Peer, typhon_wire:endpoint_call(Endpoint, who_am_i, x,
-                                            answer(Proof), 10)).
-
+test(tls_client_is_refused_by_a_host_without_keys,
+     Verdict == tls(plain)-tls(unknown)) :-
+    with_keys([beta], Ours,
+        ( keys_of(beta, Ours, Dir),
+          setup_call_cleanup(
+              host_start(alpha),
+              ( host_property(alpha, address(Address)),
+                with_peers([beta], tries([tls(Dir)], Address, Verdict)) ),
+              host_stop(alpha)) )).
+test(host_is_revoked_at_run_time,
+     Before-After == (ok-ok)-(tls(his(revoked))-tls(revoked))) :-
+    with_keys([alpha, beta], Ours,
+        ( keys_of(beta, Ours, Dir),
+          with_peers([beta], with_secure_host(Ours, Address,
+              ( tries([tls(Dir)], Address, Before),
+                keys_revoke(beta, Ours),
+                tries([tls(Dir)], Address, After) ))) )).
+test(hook_gets_the_proof_of_the_peer, Proof == certificate(beta)) :-
+    with_beta(_, Address,
+        ( atomic_list_concat([_, Endpoint], @, Address),
+          peer_do(beta, typhon_wire:endpoint_call(Endpoint, who_am_i, x,
+                                                  answer(Proof), 10)) )).
 test(remote_goals_need_the_option_besides_a_certificate,
      By-Then = permission_error(remote, host, _)-none) :-
-    with_authority([alpha, beta], [], goals_of_beta(By, Then)).
-
-goals_of_beta(By, Then, Ours) :-
-    keys_of(beta, Ours, Dir),
-    with_peers([beta-[host([tls(Dir)])]],
-               with_secure_host(Ours, refused_goal(beta, By, Then))).
-
-refused_goal(Peer, By, Then, Address) :-
-    goal_of(Peer, Address, By),
-    remote(alpha, true),                % connections of our own processes work
-    host_change(alpha, peer([certificate(Peer)-all])),
-    goal_of(Peer, Address, Then).
+    with_beta(_, Address,
+        ( goal_of(beta, Address, By),
+          remote(alpha, true),          % connections of our own processes work
+          host_change(alpha, peer([certificate(beta)-all])),
+          goal_of(beta, Address, Then) )).
 
 goal_of(Peer, Address, Error) :-
     peer_do(Peer, catch(( remote(Address, true), Error = none ),
                         error(Error, _), true)).
 
-test(only_tls_1_3_is_accepted, Said == no) :-
-    with_authority([alpha, beta], [], older_protocol(Said)).
+test(only_tls_1_3_is_accepted,
+     [forall(member(Version-Expected, ['-tls1_2'-no, '-tls1_3'-yes])),
+      Said == Expected]) :-
+    with_keys([alpha, beta], Ours,
+        ( keys_of(beta, Ours, Dir),
+          with_secure_host(Ours, Address,
+                           s_client(Dir, Version, Said, Address)) )).
 
-older_protocol(Said, Ours) :-
-    keys_of(beta, Ours, Dir),
-    with_secure_host(Ours, s_client(Dir, ['-tls1_2'], Said)).
-
-%   s_client(+Keys, +Args, -Said, +Address): Said is `yes` if openssl gets a
+%   s_client(+Keys, +Version, -Said, +Address): Said is `yes` if openssl gets a
 %   greeting.
 
-s_client(Dir, Args0, Said, Address) :-
+s_client(Dir, Version, Said, Address) :-
     atomic_list_concat([_, Endpoint], @, Address),
-    append(Args0, ['-connect', Endpoint, '-cert', 'cert.pem',
-                   '-key', 'key.pem', '-CAfile', 'ca.pem', '-quiet',
-                   '-no_ign_eof'], Args),
+    Args = [ Version, '-connect', Endpoint, '-cert', 'cert.pem', '-key',
+             'key.pem', '-CAfile', 'ca.pem', '-quiet', '-no_ign_eof' ],
     setup_call_cleanup(
         process_create(path(openssl), [s_client|Args],
                        [ cwd(Dir), stdin(pipe(In)), stdout(pipe(Out)),
@@ -209,25 +199,11 @@ s_client(Dir, Args0, Said, Address) :-
           ( Line == "typhon tls" -> Said = yes ; Said = no ) ),
         ( close(In, [force(true)]), close(Out), process_wait(Pid, _) )).
 
-test(tls_1_3_handshake_of_any_client_succeeds, Said == yes) :-
-    with_authority([alpha, beta], [], new_protocol(Said)).
-
-new_protocol(Said, Ours) :-
-    keys_of(beta, Ours, Dir),
-    with_secure_host(Ours, s_client(Dir, ['-tls1_3'], Said)).
-
 test(slow_handshake_is_refused, Why == slow) :-
-    setting(typhon_handshake:handshake_time, Old),
-    setup_call_cleanup(
-        set_setting(typhon_handshake:handshake_time, 1),
-        with_authority([alpha], [],
-                       secure_host_and(dribbles(Why))),
-        set_setting(typhon_handshake:handshake_time, Old)).
-
-:- meta_predicate secure_host_and(1, +).
-
-secure_host_and(Goal, Ours) :-
-    no_leaks(with_secure_host(Ours, Goal)).
+    with_settings([typhon_handshake:handshake_time=1],
+        with_keys([alpha], Ours,
+                  no_leaks(with_secure_host(Ours, Address,
+                                            dribbles(Why, Address))))).
 
 %   A record of 512 bytes is announced; one comes every 0.2 seconds.
 
@@ -257,12 +233,7 @@ dribble(Out, Bytes) :-
 :- begin_tests(work_over_tls).
 
 test(large_data_in_both_directions) :-
-    with_authority([alpha, beta], [], much_both_ways).
-
-much_both_ways(Ours) :-
-    keys_of(beta, Ours, Dir),
-    with_peers([beta-[host([tls(Dir)])]],
-               with_secure_host(Ours, much_both_ways(8))).
+    with_beta(_, Address, much_both_ways(8, Address)).
 
 %   Agents of 100 kB cross each other while small ones hop.
 
@@ -290,12 +261,7 @@ much_both_ways(Rounds, Address) :-
            ( agent_join(Agent, Outcome, 100), assertion(Outcome == done) )).
 
 test(long_running_handler_releases_the_connection) :-
-    with_authority([alpha, beta], [], long_stay).
-
-long_stay(Ours) :-
-    keys_of(beta, Ours, Dir),
-    with_peers([beta-[host([tls(Dir)])]],
-               with_secure_host(Ours, long_stay_at)).
+    with_beta(_, Address, long_stay_at(Address)).
 
 long_stay_at(Address) :-
     peer_do(beta, agent_create(clauses([ (:- agent(worker, [])),
@@ -312,15 +278,10 @@ long_stay_at(Address) :-
     assertion(T1-T0 < 10).
 
 test(processes_of_a_network_get_keys, Proofs == [2]) :-
-    with_authority([alpha], [], secure_network(Proofs)).
-
-secure_network(Proofs, Ours) :-
-    keys_of(alpha, Ours, Dir),
-    setup_call_cleanup(
-        network_start(ring(2), Network, [processes(2), tls(Dir)]),
-        ( network_property(Network, hosts([First|_])),
-          findall(N, remote(First, ( typhon_keys:own_keys(_),
-                                     N = 2 )), Proofs) ),
-        network_stop(Network)).
+    with_keys([alpha], Ours,
+        ( keys_of(alpha, Ours, Dir),
+          with_network(ring(2), [processes(2), tls(Dir)], _, [First|_],
+                       findall(2, remote(First, typhon_keys:own_keys(_)),
+                               Proofs)) )).
 
 :- end_tests(work_over_tls).
