@@ -1,5 +1,6 @@
 :- module(test_authority,
           [ with_authority/3,           % +Hosts, +Authors, :Goal
+            with_authority/4,           % +Hosts, +Authors, -Dir, :Goal
             keys_of/3,                  % +Name, +Authority, -Dir
             verdict/3,                  % +Trail, -Signed, -Verdict
             expired_host/2,             % +Authority, +Name
@@ -23,15 +24,24 @@
    atom_concat(Dir, '/../../app/typhon/keys', Keys),
    use_module(Keys, [keys_init/1, keys_issue/4]).
 
-:- meta_predicate with_authority(+, +, 1).
+:- meta_predicate
+    with_authority(+, +, 1),
+    with_authority(+, +, -, 0).
 
 %!  with_authority(+Hosts, +Authors, :Goal) is semidet.
+%!  with_authority(+Hosts, +Authors, -Dir, :Goal) is semidet.
 %
-%   Call Goal with the directory of an authority for Hosts and Authors, see
-%   app/typhon/keys.pl. The directory is removed afterwards.
+%   Call Goal, once, with the directory Dir of an authority for Hosts and
+%   Authors, see app/typhon/keys.pl. The directory is removed afterwards.
 
 with_authority(Hosts, Authors, Goal) :-
     with_tmp_dir(authority(Hosts, Authors, Goal)).
+
+with_authority(Hosts, Authors, Dir, Goal) :-
+    with_authority(Hosts, Authors, test_authority:called_with(Dir, Goal)).
+
+called_with(Dir, Goal, Dir) :-
+    once(Goal).
 
 authority(Hosts, Authors, Goal, Tmp) :-
     authority(Hosts, Authors, Made),

@@ -13,21 +13,17 @@
 
 %   The owners are alpha, which is here, and mallory; beta has a host.
 
-:- meta_predicate with_owners(0), with_owners(0, +).
+:- meta_predicate with_owners(0).
 
 with_owners(Goal) :-
-    with_authority([alpha, beta, mallory], [], with_owners(Goal)).
-
-with_owners(Goal, Authority) :-
-    keys_of(alpha, Authority, Alpha),
-    keys_of(beta, Authority, Beta),
-    keys_of(mallory, Authority, Mallory),
-    with_peers([ beta-[host([tls(Beta), cell(none)])],
-                 mallory-[host([tls(Mallory)])] ],
-               setup_call_cleanup(
-                   host_start(alpha, [tls(Alpha)]),
-                   once(Goal),
-                   host_stop(alpha))).
+    with_authority([alpha, beta, mallory], [], Authority,
+        ( maplist({Authority}/[Name,Dir]>>keys_of(Name, Authority, Dir),
+                  [alpha, beta, mallory], [Alpha, Beta, Mallory]),
+          with_peers([ beta-[host([tls(Beta), cell(none)])],
+                       mallory-[host([tls(Mallory)])] ],
+                     setup_call_cleanup(host_start(alpha, [tls(Alpha)]),
+                                        once(Goal),
+                                        host_stop(alpha))) )).
 
 %   A guest moves and sends messages on order, and stores received messages.
 
