@@ -17,34 +17,15 @@
 :- use_module(library(typhon)).
 :- use_module('../../lib/virtual_networks', [network_shape/5]).
 
-:- meta_predicate
-    quiet(0),
-    seconds(0, -).
-
-%   with_network(+Topology, +Options, :Goal): call(Goal, Network).
-
-with_network(Topology, Options, Goal) :-
-    with_network(Topology, Options, Network,
-        once(call(Goal, Network))).
+:- meta_predicate quiet(0).
 
 %   Messages that a test provokes are not printed.
 
-:- dynamic expected/1, printed/1.
-:- multifile user:message_hook/3.
-:- dynamic user:message_hook/3.
-
-user:message_hook(typhon(Message), _, _) :-
-    expected(Message),
-    assertz(printed(Message)).
-
 quiet(Goal) :-
-    retractall(printed(_)),
-    setup_call_cleanup(
-        maplist([M]>>assertz(expected(M)),
-                [ node_down(_, _, _, _, _), node_killed(_, _),
-                  node_order(_, _, _) ]),
-        once(Goal),
-        retractall(expected(_))).
+    capturing(Goal, _).
+
+printed(Message) :-
+    was_printed(_, typhon(Message)).
 
 alive(Pid) :-
     atom_concat('/proc/', Pid, Dir),
@@ -64,12 +45,6 @@ hosts(Network, Hosts) :-
 
 pids(Network, Pids) :-
     network_property(Network, processes(Pids)).
-
-seconds(Goal, Seconds) :-
-    get_time(T0),
-    once(Goal),
-    get_time(T1),
-    Seconds is T1 - T0.
 
 :- begin_tests(networks).
 
@@ -102,7 +77,7 @@ edges_are(Edges, Network) :-
 
 test(in_four_processes, true(Seconds < 30)) :-
     network_shape(grid(6, 10), [], _, _, Edges),
-    seconds(with_network(grid(6, 10), [processes(4)], Network, Hosts,
+    elapsed(with_network(grid(6, 10), [processes(4)], Network, Hosts,
                          four(Edges, Network, Hosts)), Seconds).
 
 four(Edges, Network, Hosts) :-
@@ -151,9 +126,6 @@ round_trip(Count, Network) :-
                  Agent, [host(First)]),
     agent_join(Agent, done, 20),
     remote(First, take(round(Count))).
-
-%   An agent and its clone are created on A, and stay on B until they get `go`;
-%   a visitor from a host outside the network is with them.
 
 test(agents_of_a_network) :-
     with_network(ring(2), [], Network, Hosts, census(Network, Hosts)).
@@ -362,7 +334,7 @@ test(hanging_process,
      [ forall(member(Dynamic, [[], [ clock(1000),
                                      dynamic(links(uniform(1,1), 1, 1)) ]])),
        true(Seconds < 20) ]) :-
-    quiet(seconds(with_settings([typhon_children:stop_seconds=1],
+    quiet(elapsed(with_settings([typhon_children:stop_seconds=1],
                                 with_network(ring(8), [processes(4)|Dynamic],
                                              Network, freeze(Network))),
                   Seconds)),
@@ -378,7 +350,7 @@ test(hanging_process_is_killed_soon, true(Seconds < 10)) :-
                                  ( main :- move(B), move(A), main ) ]),
                        _, [host(A)]),
           freeze(Network),
-          seconds(network_stop(Network), Seconds) ))).
+          elapsed(network_stop(Network), Seconds) ))).
 
 %   The end of the output and the signal race.
 
@@ -394,7 +366,7 @@ all_killed(Network) :-
 test(busy_agent_does_not_delay_the_stop, true(Seconds < 25)) :-
     Busy = [(:- agent(busy, [])), ( main :- repeat, fail )],
     Soon = set_setting(typhon_hosting:stop_seconds, 0.3),
-    seconds(with_network(ring(4), [processes(2)], _, Hosts,
+    elapsed(with_network(ring(4), [processes(2)], _, Hosts,
                          forall(member(Host, Hosts),
                                 ( remote(Host, Soon),
                                   agent_create(clauses(Busy), _,
@@ -402,19 +374,24 @@ test(busy_agent_does_not_delay_the_stop, true(Seconds < 25)) :-
             Seconds).
 test(children_end_when_their_parent_is_killed,
      forall(member(Signal, [kill, term]))) :-
-    project_file(prolog, Library),
-    format(atom(Path), 'library=~w', [Library]),
-    Goal = 'use_module(library(typhon/network)),\c
-            network_start(ring(6),N,[processes(3)]),\c
-            network_property(N,processes(P)),\c
-            format("~q.~n",[P]),flush_output,thread_get_message(x)',
-    with_swipl(['-f', none, '-p', Path, '-g', Goal], Pid, _, Out,
+    fresh(( network_start(ring(6), N, [processes(3)]),
+            network_property(N, processes(P)),
+            format("~q.~n", [P]), flush_output, thread_get_message(x) ), Args),
+    with_swipl(Args, Pid, _, Out,
                ( read_line_to_string(Out, Line),
                  term_string(Pids, Line),
                  maplist(alive, Pids),
                  process_kill(Pid, Signal) )),
     length(Pids, 3),
     wait_until(ended(Pids), 10).
+
+%   fresh(+Goal, -Args): another process with the library runs Goal.
+
+fresh(Goal, ['-f', none, '-p', Path, '-g', Text]) :-
+    project_file(prolog, Library),
+    format(atom(Path), 'library=~w', [Library]),
+    format(atom(Text), '~q', [( use_module(library(typhon)), Goal )]).
+
 test(failed_host_start_stops_the_network,
      error(domain_error(host_option, colour(red)))) :-
     no_leaks(catch(network_start(ring(4), _,
@@ -454,30 +431,30 @@ fill_atoms :-
 test(missing_program, error(existence_error(_, _))) :-
     with_settings([typhon_children:ssh=no_such_program],
                  network_start(ring(4), _, [machines([nowhere])])).
-test(options, [ forall(member(Option-Formal,
-                              [ colour(red)-
-                                domain_error(network_option, colour(red)),
-                                processes(0)-type_error(positive_integer, 0),
-                                clock(0)-domain_error(clock_rate, 0),
-                                hop_time(3)-domain_error(hop_time, 3),
-                                dynamic(chaos)-
-                                domain_error(dynamic_model, chaos) ])),
-                error(Formal) ]) :-
+test(bad_arguments,
+     [ forall(member(Goal-Formal,
+                     [ network_start(torus(3), _, [])-
+                       domain_error(topology, torus(3)),
+                       network_property(atlantis, hosts(_))-
+                       existence_error(network, atlantis) ])),
+       error(Formal) ]) :-
+    call(Goal).
+test(bad_options,
+     [ forall(member(Option-Formal,
+                     [ colour(red)-domain_error(network_option, colour(red)),
+                       processes(0)-type_error(positive_integer, 0),
+                       clock(0)-domain_error(clock_rate, 0),
+                       hop_time(3)-domain_error(hop_time, 3),
+                       dynamic(chaos)-domain_error(dynamic_model, chaos) ])),
+       error(Formal) ]) :-
     network_start(ring(3), _, [Option]).
-test(topology, error(domain_error(topology, torus(3)))) :-
-    network_start(torus(3), _, []).
-test(unknown_network, error(existence_error(network, atlantis))) :-
-    network_property(atlantis, hosts(_)).
 test(output_of_children_is_printed) :-
-    project_file(prolog, Library),
-    format(atom(Path), 'library=~w', [Library]),
-    Goal = 'use_module(library(typhon)),use_module(library(typhon/network)),\c
-            network_start(ring(2),N,[processes(2)]),\c
-            network_property(N,hosts([_,H])),\c
-            agent_create(clauses([(:-agent(a,[])),(main:-writeln(hello))]),\c
-                         A,[host(H)]),\c
-            agent_join(A,_,10),network_stop(N),halt',
-    run_swipl(['-f', none, '-p', Path, '-g', Goal], [], exit(0), Text, _),
+    fresh(( network_start(ring(2), N, [processes(2)]),
+            network_property(N, hosts([_,H])),
+            agent_create(clauses([(:- agent(a, [])), (main :- writeln(hello))]),
+                         A, [host(H)]),
+            agent_join(A, _, 10), network_stop(N), halt ), Args),
+    run_swipl(Args, [], exit(0), Text, _),
     sub_string(Text, _, _, _, "hello\n").
 
 :- end_tests(network_ends).

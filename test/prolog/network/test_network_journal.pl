@@ -1,6 +1,7 @@
 :- module(test_network_journal, []).
 :- use_module('../../lib/common').
-:- use_module('../../lib/fixtures', [with_hosts/2]).
+:- use_module('../../lib/fixtures', 
+              [capturing/2, printed_message/2, with_hosts/2]).
 :- use_module('../../lib/networks').
 :- use_module(library(plunit)).
 :- use_module(library(aggregate), [aggregate_all/3]).
@@ -29,20 +30,11 @@ network(Dir, Topology, Options, Network, Hosts, Goal) :-
 
 %   Messages that a test provokes are not printed.
 
-:- dynamic expected/0, printed/1.
-:- multifile user:message_hook/3.
-:- dynamic user:message_hook/3.
-
-user:message_hook(typhon(Message), _, _) :-
-    expected,
-    memberchk(Message, [ node_down(_, _, _, _, _), node_back(_, _),
-                         node_given_up(_, _, _, _), node_killed(_, _),
-                         server_ended(_) ]),
-    assertz(printed(Message)).
-
 quiet(Goal) :-
-    retractall(printed(_)),
-    setup_call_cleanup(assertz(expected), once(Goal), retractall(expected)).
+    capturing(Goal, _).
+
+printed(Message) :-
+    printed_message(_, typhon(Message)).
 
 pids(Network, Pids) :-
     network_property(Network, processes(Pids)).
