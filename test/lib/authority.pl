@@ -1,6 +1,9 @@
 :- module(test_authority,
           [ with_authority/3,           % +Hosts, +Authors, :Goal
             with_authority/4,           % +Hosts, +Authors, -Dir, :Goal
+            authority_begin/2,          % +Hosts, +Authors
+            authority_end/0,
+            authority_keys/2,           % +Name, -Dir
             keys_of/3,                  % +Name, +Authority, -Dir
             verdict/3,                  % +Trail, -Signed, -Verdict
             expired_host/2,             % +Authority, +Name
@@ -28,6 +31,10 @@
     with_authority(+, +, 1),
     with_authority(+, +, -, 0).
 
+:- dynamic
+    made/3,                             % Hosts, Authors, Dir
+    directory/1.                        % of the unit of tests
+
 %!  with_authority(+Hosts, +Authors, :Goal) is semidet.
 %!  with_authority(+Hosts, +Authors, -Dir, :Goal) is semidet.
 %
@@ -44,26 +51,44 @@ called_with(Dir, Goal, Dir) :-
     once(Goal).
 
 authority(Hosts, Authors, Goal, Tmp) :-
-    authority(Hosts, Authors, Made),
     directory_file_path(Tmp, keys, Dir),
-    process_create(path(cp), ['-Rp', Made, Dir], []),
+    copied(Hosts, Authors, Dir),
     call(Goal, Dir).
 
 %   Keys take a third of a second each: each process makes an authority once,
 %   and its goals get copies.
 
-:- dynamic made/3.                      % Hosts, Authors, Dir
+copied(Hosts, Authors, Dir) :-
+    made(Hosts, Authors, Made),
+    !,
+    process_create(path(cp), ['-Rp', Made, Dir], []).
+copied(Hosts, Authors, Dir) :-
+    tmp_file(keys, Made),
+    keys_init(Made),
+    at_halt(delete_directory_and_contents(Made)),
+    forall(member(Host, Hosts), keys_issue(host, Host, 30, Made)),
+    forall(member(Author, Authors), keys_issue(author, Author, 30, Made)),
+    assertz(made(Hosts, Authors, Made)),
+    copied(Hosts, Authors, Dir).
 
-authority(Hosts, Authors, Dir) :-
-    made(Hosts, Authors, Dir),
-    !.
-authority(Hosts, Authors, Dir) :-
-    tmp_file(keys, Dir),
-    keys_init(Dir),
-    at_halt(delete_directory_and_contents(Dir)),
-    forall(member(Host, Hosts), keys_issue(host, Host, 30, Dir)),
-    forall(member(Author, Authors), keys_issue(author, Author, 30, Dir)),
-    assertz(made(Hosts, Authors, Dir)).
+%!  authority_begin(+Hosts, +Authors) is det.
+%!  authority_end is det.
+%!  authority_keys(+Name, -Dir) is det.
+%
+%   The authority of a unit of tests: set-up, clean-up, and the directory of the
+%   keys of Name.
+
+authority_begin(Hosts, Authors) :-
+    tmp_file(authority, Dir),
+    copied(Hosts, Authors, Dir),
+    assertz(directory(Dir)).
+
+authority_end :-
+    forall(retract(directory(Dir)), delete_directory_and_contents(Dir)).
+
+authority_keys(Name, Keys) :-
+    directory(Dir),
+    keys_of(Name, Dir, Keys).
 
 %!  keys_of(+Name, +Authority, -Dir) is det.
 %

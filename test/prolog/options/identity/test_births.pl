@@ -3,12 +3,9 @@
 :- use_module('../../../lib/authority').
 :- use_module('../../../lib/fixtures').
 :- use_module(library(plunit)).
-:- use_module(library(filesex),
-              [delete_directory_and_contents/1, make_directory_path/1]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/wire), [endpoint_address/1]).
-:- use_module('../../../../app/typhon/keys', [keys_init/1, keys_issue/4]).
 :- use_module('../../../../prolog/typhon/options/identity/birth',
               [agent_owned/2, birth_good/1]).
 :- use_module('../../../../prolog/typhon/options/identity/signatures', []).
@@ -24,22 +21,15 @@ The process has the keys of beta; agents are of alpha.
 *Threading*: one test at a time.
 */
 
-:- dynamic directory/1.
-
 made :-
-    tmp_file(births, Dir),
-    make_directory_path(Dir),
-    assertz(directory(Dir)),
-    keys_init(Dir),
-    forall(member(Name, [alpha,beta]), keys_issue(host, Name, 30, Dir)),
-    keys_issue(author, alice, 30, Dir),
-    keys_of(beta, Dir, Beta),
+    authority_begin([alpha,beta], [alice]),
+    authority_keys(beta, Beta),
     assertz(typhon_keys:own_keys(Beta)).
 
 removed :-
     retractall(typhon_keys:own_keys(_)),
     forgotten,
-    forall(retract(directory(Dir)), delete_directory_and_contents(Dir)).
+    authority_end.
 
 forgotten :-
     forall(typhon_identity:ids_anew, true),
@@ -50,8 +40,7 @@ id('x.abc-alpha.0@alpha@127.0.0.1:9').
 %   birth(+Signer, +Id, +Hash, -Birth)
 
 birth(Signer, Id, Hash, birth(Id, Hash, Certificate, Hex)) :-
-    directory(Dir),
-    keys_of(Signer, Dir, Keys),
+    authority_keys(Signer, Keys),
     typhon_birth:birth_text(Id, Hash, Text),
     keys_sign(Keys, Text, signature(Pem, Hex)),
     atom_string(Certificate, Pem).
@@ -155,11 +144,10 @@ test(senders_that_are_no_agents_are_accepted, Accepted == [yes,yes,no]) :-
                  -> A = yes ; A = no ) ), Accepted).
 test(author_of_a_program_is_known_by_its_signature,
      [cleanup(forgotten), Authors == [alice,none,none]]) :-
-    directory(Dir),
-    keys_of(beta, Dir, Keys),
+    authority_keys(beta, Keys),
     findall(A, ( member(Signer-Of, [alice-h,alice-k,alpha-h]),
                  forgotten,
-                 keys_of(Signer, Dir, SignerKeys),
+                 authority_keys(Signer, SignerKeys),
                  keys_sign(SignerKeys, 'typhon program h', Signature),
                  typhon_signatures:signature_keep(Of, Signature),
                  ( typhon_signatures:program_author(Keys, Of, A0) -> A = A0

@@ -4,10 +4,7 @@
 :- use_module('../../../lib/fixtures').
 :- use_module(library(plunit)).
 :- use_module(library(apply), [foldl/4]).
-:- use_module(library(filesex),
-              [delete_directory_and_contents/1, make_directory_path/1]).
 :- use_module(library(lists), [append/3, member/2]).
-:- use_module('../../../../app/typhon/keys', [keys_init/1, keys_issue/4]).
 :- use_module('../../../../prolog/typhon/options/trail', []).
 :- use_module('../../../../prolog/typhon/options/trail/trail', []).
 :- use_module('../../../../prolog/typhon/options/trail/trail_verified', []).
@@ -22,26 +19,12 @@ the author alice in turn.  The agent was born elsewhere, in a process of alpha.
 *Threading*: one test at a time.
 */
 
-:- dynamic directory/1.
-
-made :-
-    tmp_file(trail_steps, Dir),
-    make_directory_path(Dir),
-    assertz(directory(Dir)),
-    keys_init(Dir),
-    forall(member(Name, [alpha,beta,gamma]), keys_issue(host, Name, 30, Dir)),
-    keys_issue(author, alice, 30, Dir).
-
-removed :-
-    forall(retract(directory(Dir)), delete_directory_and_contents(Dir)).
-
 id('x.abc-alpha.0@alpha@127.0.0.1:9').
 
 :- meta_predicate acting(+, 0).
 
 acting(Name, Goal) :-
-    directory(Dir),
-    keys_of(Name, Dir, Keys),
+    authority_keys(Name, Keys),
     setup_call_cleanup(
         assertz(typhon_keys:own_keys(Keys)),
         once(Goal),
@@ -124,7 +107,9 @@ forged([ alpha-handed('b@beta:1'), beta-id('y.abc-alpha.0@alpha@127.0.0.1:9') ],
        0, unaccounted(nobody)).
 forged([ beta-received('b@beta:1'), beta-entered(r) ], 0, unaccounted(nobody)).
 
-:- begin_tests(trail_steps, [setup(made), cleanup(removed)]).
+:- begin_tests(trail_steps,
+               [ setup(authority_begin([alpha,beta,gamma], [alice])),
+                 cleanup(authority_end) ]).
 
 test(steps_that_follow_are_whole, Signed-Verdict == All-whole) :-
     honest(Steps),
