@@ -3,7 +3,7 @@
 :- use_module('../../lib/networks').
 :- use_module('../../lib/fixtures').
 :- use_module(library(plunit)).
-:- use_module(library(apply), [maplist/3]).
+:- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(lists), [last/2, member/2]).
 :- use_module(library(typhon)).
 
@@ -24,21 +24,22 @@ costs_at(Host, Costs) :-
 
 :- begin_tests(link_costs).
 
-test(cost_is_one_by_default, A-B == [beta-1]-[alpha-1]) :-
+%   The cost of a link after goals that make it, at both of its hosts.
+
+test(cost_of_the_last_link_counts,
+     [ forall(member(Goals-Cost,
+                     [ [link(alpha, beta)]-1,
+                       [link(alpha, beta, [cost(2.5)])]-2.5,
+                       [link(alpha, beta, [cost(2)]), link(alpha, beta)]-2,
+                       [ link(alpha, beta, [cost(2)]),
+                         link(beta, alpha, [cost(7)]) ]-7,
+                       [ link(alpha, beta, [cost(2)]),
+                         link(beta, alpha, [cost(0)]) ]-0,
+                       [ link(alpha, beta, [cost(2)]), host_stop(beta),
+                         host_start(beta), link(alpha, beta) ]-1 ])),
+       true(A-B == [beta-Cost]-[alpha-Cost]) ]) :-
     with_hosts([alpha,beta],
-               ( link(alpha, beta), costs_at(alpha, A), costs_at(beta, B) )).
-test(cost_applies_in_both_directions, A-B == [beta-2.5]-[alpha-2.5]) :-
-    with_hosts([alpha,beta],
-               ( link(alpha, beta, [cost(2.5)]),
-                 costs_at(alpha, A), costs_at(beta, B) )).
-test(cost_is_changed_by_linking_again,
-     All == [[beta-2],[beta-2],[beta-7],[beta-0]]) :-
-    with_hosts([alpha,beta],
-               ( link(alpha, beta, [cost(2)]), costs_at(alpha, C1),
-                 link(alpha, beta), costs_at(alpha, C2),
-                 link(beta, alpha, [cost(7)]), costs_at(alpha, C3),
-                 link(beta, alpha, [cost(0)]), costs_at(alpha, C4) )),
-    All = [C1,C2,C3,C4].
+               ( maplist(call, Goals), costs_at(alpha, A), costs_at(beta, B) )).
 test(cost_is_forgotten_by_unlink, A == [beta-1]) :-
     with_hosts([alpha,beta],
                ( link(alpha, beta, [cost(2)]), unlink(alpha, beta),
@@ -68,28 +69,25 @@ test(agent_takes_the_cheapest_path, F == [s(gamma)]) :-
                                    atomic_list_concat([Name,_], @, Here),
                                    assertz(s(Name))) ], A),
                  wait_state(A, resident), facts(A, F) )).
-test(restarted_host_has_no_costs, A == [beta-1]) :-
-    with_hosts([alpha,beta],
-               ( link(alpha, beta, [cost(2)]),
-                 host_stop(beta), host_start(beta),
-                 link(alpha, beta), costs_at(alpha, A) )).
-test(negative, error(domain_error(cost, -1))) :-
-    with_hosts([alpha,beta], link(alpha, beta, [cost(-1)])).
-test(no_number, error(type_error(number, dear))) :-
-    with_hosts([alpha,beta], link(alpha, beta, [cost(dear)])).
-test(unknown_option, error(domain_error(link_option, price(1)))) :-
-    with_hosts([alpha,beta], link(alpha, beta, [price(1)])).
-test(unknown_host, error(existence_error(host, nowhere))) :-
-    with_hosts([alpha], link(alpha, nowhere, [cost(1)])).
+test(bad_link,
+     [ forall(member(Goal-Formal,
+                     [ link(alpha, beta, [cost(-1)])-domain_error(cost, -1),
+                       link(alpha, beta, [cost(dear)])-type_error(number, dear),
+                       link(alpha, beta, [price(1)])-
+                       domain_error(link_option, price(1)),
+                       link(alpha, nowhere, [cost(1)])-
+                       existence_error(host, nowhere) ])),
+       error(Formal) ]) :-
+    with_hosts([alpha,beta], Goal).
 
 :- end_tests(link_costs).
 
 :- begin_tests(network_costs).
 
-test(one_cost_for_all_links, C == [n1-3,n3-3]) :-
-    with_network(line(3), [cost(3), clock(virtual)], _, costs_at(n2, C)).
-test(default_cost, C == [n1-1,n3-1]) :-
-    with_network(line(3), [clock(virtual)], _, costs_at(n2, C)).
+test(one_cost_for_all_links,
+     [ forall(member(Options-Cost, [[]-1, [cost(3)]-3])),
+       C == [n1-Cost,n3-Cost] ]) :-
+    with_network(line(3), [clock(virtual)|Options], _, costs_at(n2, C)).
 test(costs_of_listed_links, A-B == [b-4]-[a-4,c-2]) :-
     with_network(edges([a-b-cost(4), b-c]), [cost(2), clock(virtual)], _,
                  ( costs_at(a, A), costs_at(b, B) )).
@@ -133,11 +131,8 @@ test(costs_in_several_processes, [C1,C2,C4] == [[n2-5],[n1-5,n3-8],[n3-5]]) :-
     with_network(edges([n1-n2, n2-n3-cost(8), n3-n4]),
                  [processes(2), cost(5)], _, [A1,A2,_,A4],
         maplist(costs_at, [A1,A2,A4], [C1,C2,C4])).
-test(invalid_cost, error(domain_error(cost, dear))) :-
-    network_start(line(2), _, [cost(dear)]).
-test(negative_cost, error(domain_error(cost, -1))) :-
-    network_start(line(2), _, [cost(-1)]).
-test(invalid_interval, error(domain_error(cost, uniform(2, 1)))) :-
-    network_start(line(2), _, [cost(uniform(2, 1))]).
+test(invalid_cost, [ forall(member(Cost, [dear, -1, uniform(2, 1)])),
+                    error(domain_error(cost, Cost)) ]) :-
+    network_start(line(2), _, [cost(Cost)]).
 
 :- end_tests(network_costs).

@@ -25,16 +25,38 @@ test(rules_decide_and_refusals_are_audited,
          [ move_refused(_, peer), permission_error(remote, host, _),
            permission_error(orders, agent, _), true ]
          - [refused(y,peer),refused(remote),refused(orders)]) :-
-    with_tmp_dir(peer_rules([Create,Remote,Dispose,Look], Noted)).
+    with_rules([messages,watch], There-_,
+        ( waiting_agent(A),
+          tried(agent_create(clauses([(:- agent(y, [])), (main :- true)]), _,
+                             [host(There)]), Create),
+          tried(remote(There, true), Remote),
+          tried(agent_dispose(A), Dispose),
+          tried(agent_property(A, state(_)), Look) ), Noted).
+
+%   A peer disposes of an agent before there are rules, under rules, and after
+%   their removal.
+
 test(rules_and_audit_of_a_running_host_change,
      [Before,Ruled,After]-Noted =
          [true, permission_error(orders, agent, _), true]
          - [refused(orders), order(_, dispose)]) :-
-    with_tmp_dir(changed_rules([Before,Ruled,After], Noted)).
+    with_rules(none, _-File,
+        ( disposed(Before),
+          peer_do(p, ( host_change(p, audit(File)),
+                       host_change(p, peer([cookie-[agents]])) )),
+          disposed(Ruled),
+          peer_do(p, host_change(p, peer([cookie-all]))),
+          disposed(After) ), Noted).
+
+%   A peer watches a host, by its name, without the right and with it.
+
 test(events_need_the_right_to_watch,
-     Results-Noted = [permission_error(watch, host, _), true]
-                     -[refused(watch)]) :-
-    with_tmp_dir(watched(Results, Noted)).
+     [Without,With]-Noted = [permission_error(watch, host, _), true]
+                            -[refused(watch)]) :-
+    with_rules([messages], There-_,
+        ( tried(watches(There), Without),
+          peer_do(p, host_change(p, peer([cookie-[watch]]))),
+          tried(watches(There), With) ), Noted).
 test(unknown_rules_are_an_error, error(domain_error(peer_rule, x))) :-
     host_start(g, [peer([x])]).
 test(unknown_rules_are_an_error_of_a_change,
@@ -57,46 +79,21 @@ codec_with(Options, Codec) :-
                              [host(There)]), _),
           once(endpoint_peer(_, codec(Codec))) )))).
 
-peer_rules([Create,Remote,Dispose,Look], Noted, Dir) :-
-    directory_file_path(Dir, audit, File),
-    no_leaks(with_peers(
-        [p-[host([peer([cookie-[messages,watch]]), audit(File)])]],
-        with_host_here(( peer_host(p, There),
-          waiting_agent(A),
-          tried(agent_create(clauses([(:- agent(y, [])), (main :- true)]), _,
-                             [host(There)]), Create),
-          tried(remote(There, true), Remote),
-          tried(agent_dispose(A), Dispose),
-          tried(agent_property(A, state(_)), Look),
-          audited(File, Noted) )))).
+%   with_rules(+Rights, -Place, :Goal, -Noted): Goal is called beside a process
+%   p with a host that gives these Rights, and has an audit, or has neither.
+%   Place is Host-File, with the file of the audit.
 
-%   A peer disposes of an agent before there are rules, under rules, and after
-%   their removal.
+:- meta_predicate with_rules(+, -, 0, -).
 
-changed_rules([Before,Ruled,After], Noted, Dir) :-
-    directory_file_path(Dir, audit, File),
-    no_leaks(with_peers(
-        [p-[host([])]],
-        with_host_here(( peer_host(p, _),
-          disposed(Before),
-          peer_do(p, ( host_change(p, audit(File)),
-                       host_change(p, peer([cookie-[agents]])) )),
-          disposed(Ruled),
-          peer_do(p, host_change(p, peer([cookie-all]))),
-          disposed(After),
-          audited(File, Noted) )))).
-
-%   A peer watches a host, by its name, without the right and with it.
-
-watched([Without,With], Noted, Dir) :-
-    directory_file_path(Dir, audit, File),
-    no_leaks(with_peers(
-        [p-[host([peer([cookie-[messages]]), audit(File)])]],
-        with_host_here(( peer_host(p, There),
-          tried(watches(There), Without),
-          peer_do(p, host_change(p, peer([cookie-[watch]]))),
-          tried(watches(There), With),
-          audited(File, Noted) )))).
+with_rules(Rights, There-File, Goal, Noted) :-
+    with_tmp_dir(Dir,
+        ( directory_file_path(Dir, audit, File),
+          ( Rights == none -> Options = []
+          ; Options = [peer([cookie-Rights]), audit(File)] ),
+          no_leaks(with_peers(
+              [p-[host(Options)]],
+              with_host_here(( peer_host(p, There), Goal,
+                               audited(File, Noted) )))) )).
 
 watches(Host) :-
     watch([Host], [_]>>true, Watch),

@@ -3,6 +3,7 @@
 :- use_module('../../../lib/fixtures').
 :- use_module('../../../lib/peers').
 :- use_module(library(plunit)).
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module(library(typhon)).
@@ -47,6 +48,11 @@ three(Goal) :-
     with_hosts([alpha,beta,gamma],
                ( link(alpha, beta), link(beta, gamma), call(Goal) )).
 
+here(Goal) :-
+    setup_call_cleanup(host_start(alpha), once(Goal), host_stop(alpha)).
+
+:- meta_predicate here(0).
+
 :- begin_tests(directory).
 
 test(offer_is_found_with_its_properties,
@@ -78,48 +84,35 @@ test(repeated_offer_replaces_the_first, Found = [A-offer(shop, [closed], _)]) :-
     with_hosts([alpha],
                ( offering([shop-[open], shop-[closed]], alpha, A),
                  found(alpha, shop, [], Found) )).
-test(withdrawn_offer, Agents == []) :-
-    with_hosts([alpha],
-               ( offering([shop-[]], alpha, A),
-                 does(A, unoffer(shop)),
-                 agents_found(alpha, shop, [], Agents) )).
-test(offer_lapses_when_the_agent_leaves, Agents == []) :-
+
+%   lapse(-Agent, -Goal): after Goal its offer is not found.
+
+lapse(A, does(A, unoffer(shop))).
+lapse(A, ( agent_dispose(A), joined(A, disposed) )).
+lapse(A, ( maplist(address, [alpha,beta], [Alpha,Beta]),
+           agent_move(A, Beta, [wait(5)]),
+           agent_move(A, Alpha, [wait(5)]) )).
+
+test(offer_lapses, [forall(lapse(A, Goal)), Agents == []]) :-
     with_hosts([alpha,beta],
                ( offering([shop-[]], alpha, A),
-                 address(alpha, Alpha),
-                 address(beta, Beta),
-                 agent_move(A, Beta, [wait(5)]),
-                 agent_move(A, Alpha, [wait(5)]),
-                 agents_found(alpha, shop, [], Agents) )).
-test(offer_lapses_when_the_agent_ends, Agents == []) :-
-    with_hosts([alpha],
-               ( offering([shop-[]], alpha, A),
-                 agent_dispose(A),
-                 joined(A, disposed),
+                 call(Goal),
                  agents_found(alpha, shop, [], Agents) )).
 test(offer_lapses_when_the_agent_is_faulty, Agents == []) :-
     with_hosts([alpha],
                ( create([(main :- offer(shop, []), throw(oops))], A),
                  capturing(joined(A, raised(oops)), _),
                  agents_found(alpha, shop, [], Agents) )).
-test(too_many_offers, E == resource_error(offers)) :-
-    with_hosts([alpha],
-               ( create([ (main :- catch(offers(101), error(E0, _), true),
-                                   result(E0)),
-                          (offers(0) :- !),
-                          (offers(N) :- offer(s(N), []), M is N-1, offers(M)) ],
-                        A, []),
-                 agent_result(A, E, 10) )).
-test(offer_must_be_ground, E == instantiation_error) :-
-    with_hosts([alpha],
-               ( create([(main :- catch(offer(s(_), []), error(E0, _), true),
-                                  result(E0))], A, []),
-                 agent_result(A, E, 10) )).
-test(unknown_option, E = domain_error(find_option, hot(1))) :-
-    with_hosts([alpha],
-               ( create([(main :- catch(find(s, _, [hot(1)]), error(E0, _), true),
-                                  result(E0))], A, []),
-                 agent_result(A, E, 10) )).
+test(errors_of_offers,
+     [ forall(member(Goal-Formal,
+                     [ forall(between(0, 100, N), offer(s(N), []))-
+                       resource_error(offers),
+                       offer(s(_), [])-instantiation_error,
+                       find(s, _, [hot(1)])-
+                       domain_error(find_option, hot(1)) ])),
+       true(E == Formal) ]) :-
+    result_on([alpha],
+              [(main :- catch(Goal, error(E0, _), true), result(E0))], E).
 test(directory_on_a_guarded_host, Agents == [A]) :-
     with_hosts([alpha-[policy(guarded), cell(none)]],
                ( offering([shop-[]], alpha, A),
@@ -145,39 +138,29 @@ test(lapsed_offers_are_removed, true(Count < 300)) :-
 
 test(over_links_of_processes, Agents == [A,B]) :-
     no_leaks(with_peers([p1, p2],
-        setup_call_cleanup(
-            host_start(alpha),
-            ( peer_host(p1, H1), peer_host(p2, H2),
-              link(alpha, H1),
-              peer_do(p1, link(p1, H2)),
-              offering([shop-[]], H1, A),
-              offering([shop-[]], H2, B),
-              agents_found(alpha, shop, [radius(inf)], Agents) ),
-            host_stop(alpha)))).
+        here(( peer_host(p1, H1), peer_host(p2, H2),
+               link(alpha, H1),
+               peer_do(p1, link(p1, H2)),
+               offering([shop-[]], H1, A),
+               offering([shop-[]], H2, B),
+               agents_found(alpha, shop, [radius(inf)], Agents) )))).
 test(dead_process_is_left_out, Agents == [A]) :-
     no_leaks(with_peers([p1],
-        setup_call_cleanup(
-            host_start(alpha),
-            ( peer_host(p1, H1),
-              link(alpha, H1),
-              offering([shop-[]], alpha, A),
-              offering([shop-[]], H1, _),
-              peer_kill(p1),
-              agents_found(alpha, shop, [radius(inf)], Agents) ),
-            host_stop(alpha)))).
+        here(( peer_host(p1, H1),
+               link(alpha, H1),
+               offering([shop-[]], alpha, A),
+               offering([shop-[]], H1, _),
+               peer_kill(p1),
+               agents_found(alpha, shop, [radius(inf)], Agents) )))).
 
 :- end_tests(directory_of_processes).
 
 :- begin_tests(directory_in_the_journal, [condition(missing([journal], []))]).
 
 test(offers_are_restored) :-
-    no_leaks(with_tmp_dir(restarted)).
-
-restarted(Dir) :-
-    atomic_list_concat([Dir, /, p1], J),
-    with_peers([p1-[host([journal(J)])]],
-               setup_call_cleanup(host_start(alpha), found_again,
-                                  host_stop(alpha))).
+    no_leaks(with_tmp_dir(Dir,
+        ( atom_concat(Dir, '/p1', J),
+          with_peers([p1-[host([journal(J)])]], here(found_again)) ))).
 
 found_again :-
     peer_host(p1, H1),
