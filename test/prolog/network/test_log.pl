@@ -1,5 +1,6 @@
 :- module(test_log, []).
 :- use_module('../../lib/common').
+:- use_module('../../lib/fixtures', [capturing/2, was_printed/2]).
 :- use_module('../../lib/texts', [write_file/2]).
 :- use_module(library(plunit)).
 :- use_module(library(aggregate), [aggregate_all/3]).
@@ -31,21 +32,13 @@ arrives(Address, Host, Agent, What) :-
 %   quietly(:Goal, -Messages): the messages typhon(_) that Goal printed.
 
 :- meta_predicate quietly(0, -).
-:- dynamic printed/1.
-:- multifile user:message_hook/3.
-:- dynamic user:message_hook/3.
 
 quietly(Goal, Messages) :-
-    retractall(printed(_)),
-    setup_call_cleanup(
-        asserta((user:message_hook(typhon(M), _, _) :-
-                     test_log:note(M)), Ref),
-        Goal,
-        erase(Ref)),
-    findall(M, retract(printed(M)), Messages).
+    capturing(Goal, All),
+    findall(M, member(_-typhon(M), All), Messages).
 
-note(Message) :-
-    assertz(printed(Message)).
+printed(Message) :-
+    was_printed(_, typhon(Message)).
 
 odd_term(Term) :-
     member(Term,
@@ -176,12 +169,17 @@ test(stopped_twice, error(existence_error(log_server, _))) :-
     with_log([], Address, _, true, _),
     log_server_stop(Address).
 
-test(unknown_option, error(domain_error(log_server_option, colour(red)))) :-
-    log_server_start([file('/tmp/x'), colour(red)], _).
-test(no_file, error(existence_error(option, file))) :-
-    log_server_start([], _).
-test(no_such_directory, error(_)) :-
-    log_server_start([file('/no/such/directory/events')], _).
+test(bad_options,
+     [ forall(member(Options-Formal,
+                     [ [file('/tmp/x'), colour(red)]-
+                       domain_error(log_server_option, colour(red)),
+                       []-existence_error(option, file),
+                       [file('/no/such/directory/events')]-_,
+                       [file('/proc/typhon_log')]-
+                       permission_error(open, source_sink,
+                                        '/proc/typhon_log') ])),
+       error(Formal) ]) :-
+    no_leaks(log_server_start(Options, _)).
 test(nothing_is_left_behind) :-
     no_leaks(( with_log([], Address, _, hundred(Address), _),
                garbage_collect,           % the queues of closed sessions
@@ -238,10 +236,6 @@ fill_and_free(Address, Link, Real) :-
                  printed(log_written_again(_, _)) ), 10),
     arrives(Address, h, a, after).
 
-test(unwritable_path,
-     error(permission_error(open, source_sink, '/proc/typhon_log'))) :-
-    no_leaks(log_server_start([file('/proc/typhon_log')], _)).
-
 %   Root may write everywhere, by its capabilities: this process has none.
 
 test(a_read_only_directory, [ condition(powerless('/usr/bin/true', [], [])),
@@ -289,53 +283,34 @@ exists_file_device(File) :-
 
 :- begin_tests(log_files).
 
-test(truncated_last_line_loses_only_itself,
-     Ns-Messages == [1,2]-[log_line_skipped(3)]) :-
-    with_tmp_dir(read_text("event(1.0,h,a,1).\nevent(2.0,h,a,2).\nevent(3.0,h,",
-                           Ns, Messages)).
-test(truncated_inside_a_quote, Ns-Messages == [1]-[log_line_skipped(2)]) :-
-    with_tmp_dir(read_text("event(1.0,h,a,1).\nevent(3.0,'h",
-                           Ns, Messages)).
-test(broken_line_in_the_middle, Ns-Messages == [1,3]-[log_line_skipped(2)]) :-
-    with_tmp_dir(read_text("event(1.0,h,a,1).\nevent(2.0,h\nevent(3.0,h,a,3).\n",
-                           Ns, Messages)).
-test(empty, Ns-Messages == []-[]) :-
-    with_tmp_dir(read_text("", Ns, Messages)).
-test(no_such_file, error(existence_error(_, _))) :-
-    log_events('/no/such/file', _).
+%   file(-Text, -Then, -Numbers, -Skipped): the numbers that are read, and the
+%   lines that are not, of a file with Text, to which a server with the options
+%   Then writes the number 3, or none does.
 
-read_text(Text, Ns, Messages, Dir) :-
-    directory_file_path(Dir, 'events.pl', File),
-    write_file(File, Text),
-    quietly(log_events(File, Events), Printed),
-    findall(N, member(event(_, _, _, N), Events), Ns),
-    findall(log_line_skipped(L),
-            member(log_line_skipped(_:L, _), Printed), Messages).
+file("event(1.0,h,a,1).\nevent(2.0,h,a,2).\nevent(3.0,h,", none, [1,2], [3]).
+file("event(1.0,h,a,1).\nevent(3.0,'h", none, [1], [2]).
+file("event(1.0,h,a,1).\nevent(2.0,h\nevent(3.0,h,a,3).\n", none, [1,3], [2]).
+file("", none, [], []).
+file("event(1.0,h,a,1).\nevent(2.0,h,", [mode(append)], [1,3], [2]).
+file("event(1.0,h,a,1).\n", [mode(append)], [1,3], []).
+file("event(1.0,h,a,1).\n", [], [3], []).
 
-test(append_after_a_crash, Ns-Messages == [1,3]-[log_line_skipped(2)]) :-
-    with_tmp_dir(append_to("event(1.0,h,a,1).\nevent(2.0,h,", Ns, Messages)).
-test(append_after_an_orderly_end, Ns-Messages == [1,3]-[]) :-
-    with_tmp_dir(append_to("event(1.0,h,a,1).\n", Ns, Messages)).
-
-append_to(Text, Ns, Messages, Dir) :-
-    directory_file_path(Dir, 'events.pl', File),
-    write_file(File, Text),
-    log_server_start([file(File), mode(append)], Address),
-    arrives(Address, h, a, 3),
-    log_server_stop(Address),
-    quietly(log_events(File, Events), Printed),
-    findall(N, member(event(_, _, _, N), Events), Ns),
-    findall(log_line_skipped(L),
-            member(log_line_skipped(_:L, _), Printed), Messages).
-
-test(new_file_by_default, Ns == [3]) :-
+test(lines_that_are_cut_are_skipped,
+     [ forall(file(Text, Then, Numbers, Skipped)),
+       Ns-Lines == Numbers-Skipped ]) :-
     with_tmp_dir(Dir,
         ( directory_file_path(Dir, 'events.pl', File),
-          write_file(File, "event(1.0,h,a,1).\n"),
-          log_server_start([file(File)], Address),
-          arrives(Address, h, a, 3),
-          log_server_stop(Address),
-          log_events(File, Events),
-          findall(N, member(event(_, _, _, N), Events), Ns) )).
+          write_file(File, Text),
+          (   Then == none
+          ->  true
+          ;   log_server_start([file(File)|Then], Address),
+              arrives(Address, h, a, 3),
+              log_server_stop(Address)
+          ),
+          quietly(log_events(File, Events), Printed) )),
+    findall(N, member(event(_, _, _, N), Events), Ns),
+    findall(Line, member(log_line_skipped(_:Line, _), Printed), Lines).
+test(no_such_file, error(existence_error(_, _))) :-
+    log_events('/no/such/file', _).
 
 :- end_tests(log_files).
