@@ -3,6 +3,7 @@
 :- use_module('../../lib/texts', [write_file/3]).
 :- use_module('../../lib/networks').
 :- use_module(library(plunit)).
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
@@ -18,18 +19,11 @@
 :- meta_predicate with_files(-, -, 0).
 
 with_files(Shop, Bank, Goal) :-
-    with_tmp_dir(write_files(Shop, Bank, Goal)).
-
-write_files(Shop, Bank, Goal, Dir) :-
-    file(Dir, 'shop.pl', "sells(bread). sells(milk).", Shop),
-    file(Dir, 'bank.pl', "lends(1000).", Bank),
-    call(Goal).
-
-file(Dir, Name, Text, File) :-
-    directory_file_path(Dir, Name, File),
-    setup_call_cleanup(open(File, write, Out),
-                       writeln(Out, Text),
-                       close(Out)).
+    with_tmp_dir(Dir,
+        ( maplist(directory_file_path(Dir), ['shop.pl','bank.pl'], [Shop,Bank]),
+          write_file(Shop, "sells(bread). sells(milk).~n", []),
+          write_file(Bank, "lends(1000).~n", []),
+          once(Goal) )).
 
 %   offers(+Host, +Template, +Goal, -List)
 
@@ -38,28 +32,21 @@ offers(Host, Template, Goal, List) :-
 
 :- begin_tests(places).
 
-test(one_file_for_all_hosts, All == [[bread,milk],[bread,milk]]) :-
-    with_files(Shop, _,
-        with_network(line(2), [places(Shop), clock(virtual)], _,
-                     ( offers(n1, X, sells(X), L1),
-                       offers(n2, X, sells(X), L2) ))),
-    All = [L1,L2].
-test(files_of_one_host, All == [[bread,milk],[],[],[1000]]) :-
+%   placed(?Shop, ?Bank, -Options, -Offers): what n1 sells and lends, and n2.
+
+placed(Shop, _, [places(Shop)], [[bread,milk],[],[bread,milk],[]]).
+placed(Shop, Bank, [places([n1-Shop, 2-[Bank]])],
+       [[bread,milk],[],[],[1000]]).
+placed(Shop, Bank, [hosts([consult(Shop)]), places(n2-Bank)],
+       [[bread,milk],[],[bread,milk],[1000]]).
+
+test(files_of_hosts,
+     [forall(placed(Shop, Bank, Options, Expected)), Offers == Expected]) :-
     with_files(Shop, Bank,
-        with_network(line(2),
-                     [places([n1-Shop, 2-[Bank]]), clock(virtual)], _,
-                     ( offers(n1, X, sells(X), L1),
-                       offers(n1, X, lends(X), L2),
-                       offers(n2, X, sells(X), L3),
-                       offers(n2, X, lends(X), L4) ))),
-    All = [L1,L2,L3,L4].
-test(files_of_one_host_and_of_all, L1-L2 == [bread,milk]-[1000]) :-
-    with_files(Shop, Bank,
-        with_network(line(2),
-                     [ hosts([consult(Shop)]), places(n2-Bank),
-                       clock(virtual) ], _,
-                     ( offers(n2, X, sells(X), L1),
-                       offers(n2, X, lends(X), L2) ))).
+        with_network(line(2), [clock(virtual)|Options], _,
+                     findall(L, ( member(Host, [n1,n2]),
+                                  member(Offer, [sells(X), lends(X)]),
+                                  offers(Host, X, Offer, L) ), Offers))).
 test(goal_in_each_place, Hs == [n1,n2,n3]) :-
     with_network(line(3), [places(( here(H), leave(me(H)) )), clock(virtual)],
                  Network,
@@ -87,8 +74,6 @@ test(goals_run_in_order, L == [1,2,3]) :-
                  [ places([leave(p(1)), n1-[leave(p(2))], leave(p(3))]),
                    clock(virtual) ], _,
                  offers(n1, X, sense(p(X)), L)).
-test(goal_without_arguments, error(permission_error(_, _, _))) :-
-    network_start(line(1), _, [places(call(dispose)), clock(virtual)]).
 test(places_in_several_processes, All == [[bread,milk]-[a],[]-[b]]) :-
     with_files(Shop, _,
         with_network(edges([a-b]),
@@ -110,24 +95,21 @@ test(hosts_that_refuse_remote_goals) :-
 
 %   Either all hosts start or none.
 
-test(failing_goal, error(place_goal_failed(n2, take(p)))) :-
-    no_leaks(network_start(line(2), _,
-                           [places([n1-leave(p), take(p)]),
-                            clock(virtual)])).
-test(raising_goal, error(type_error(evaluable, foo/0))) :-
-    no_leaks(network_start(line(2), _,
-                           [places(n2-(_ is foo+1)), clock(virtual)])).
-test(raising_goal_in_another_process,
-     error(type_error(evaluable, foo/0))) :-
-    no_leaks(network_start(line(2), _,
-                           [places(2-(_ is foo+1)), processes(2)])).
-test(no_such_host, error(existence_error(host, n3))) :-
-    network_start(line(2), _, [places(n3-leave(p))]).
-test(no_such_file, error(existence_error(source_sink, _))) :-
-    no_leaks(network_start(line(2), _,
-                           [places(n2-nothing), clock(virtual)])).
-test(not_callable, error(type_error(callable, 7))) :-
-    network_start(line(2), _, [places([7])]).
+test(refused_places,
+     [ forall(member(Places-Options-Formal,
+                     [ call(dispose)-[clock(virtual)]-permission_error(_, _, _),
+                       [n1-leave(p), take(p)]-[clock(virtual)]-
+                       place_goal_failed(n2, take(p)),
+                       n2-(_ is foo+1)-[clock(virtual)]-
+                       type_error(evaluable, foo/0),
+                       2-(_ is foo+1)-[processes(2)]-
+                       type_error(evaluable, foo/0),
+                       n3-leave(p)-[]-existence_error(host, n3),
+                       n2-nothing-[clock(virtual)]-
+                       existence_error(source_sink, _),
+                       [7]-[]-type_error(callable, 7) ])),
+       error(Formal) ]) :-
+    no_leaks(network_start(line(2), _, [places(Places)|Options])).
 
 :- end_tests(places).
 
@@ -152,19 +134,18 @@ main :-
 ").
 
 test(saved_state_starts_networks, Status == exit(0)) :-
-    with_tmp_dir(status_of_saved(Status)).
-
-status_of_saved(Status, Dir) :-
-    directory_file_path(Dir, 'program.pl', File),
-    directory_file_path(Dir, saved, Saved),
-    project_file(prolog, Library),
-    program(Format),
-    write_file(File, Format, [Library]),
-    format(atom(Save),
-           'qsave_program(~q,[goal(main),stand_alone(true),foreign(save)])',
-           [Saved]),
-    ended(path(swipl), ['-g', Save, '-t', halt, File], exit(0)),
-    ended(Saved, [], Status).
+    with_tmp_dir(Dir,
+        ( directory_file_path(Dir, 'program.pl', File),
+          directory_file_path(Dir, saved, Saved),
+          project_file(prolog, Library),
+          program(Format),
+          write_file(File, Format, [Library]),
+          format(atom(Save),
+                 'qsave_program(~q,\c
+                                [goal(main),stand_alone(true),foreign(save)])',
+                 [Saved]),
+          ended(path(swipl), ['-g', Save, '-t', halt, File], exit(0)),
+          ended(Saved, [], Status) )).
 
 ended(Program, Args, Status) :-
     process_create(Program, Args,
