@@ -139,13 +139,15 @@ test(removed_link_is_not_crossed) :-
            emit(b, end), unlink(a, b), link(b, c), emit(b, end2),
            reaches(c, end2),
            at(c, fire, []) )).
-test(pheromone_must_be_ground, error(instantiation_error)) :-
-    line([a], emit(a, fire(_))).
-test(unknown_option, error(domain_error(pheromone_option, spam(2)))) :-
-    line([a], emit(a, fire, [spam(2)])).
-test(pheromone_must_be_mobile, error(type_error(mobile_term, _))) :-
-    stream_property(S, alias(user_input)),
-    line([a], emit(a, fire(S))).
+test(refused_pheromone,
+     [ forall(( stream_property(S, alias(user_input)),
+                member(Problem-Options-Formal,
+                       [ fire(_)-[]-instantiation_error,
+                         fire-[spam(2)]-
+                         domain_error(pheromone_option, spam(2)),
+                         fire(S)-[]-type_error(mobile_term, _) ]) )),
+       error(Formal) ]) :-
+    line([a], emit(a, Problem, Options)).
 
 :- end_tests(pheromone_spreads).
 

@@ -113,15 +113,14 @@ test(isolated, [forall(member(S, [random, conscientious,
                                   epsilon_conscientious(0.2)])), fail]) :-
     strategy_memory(1, M),
     next_host(S, [], a, M, _, _).
-test(unknown, error(domain_error(migration_strategy, teleport))) :-
+test(no_strategy,
+     [ forall(member(Strategy-Formal,
+                     [ teleport-domain_error(migration_strategy, teleport),
+                       _-instantiation_error,
+                       epsilon_conscientious(2)-domain_error(probability, 2) ])),
+       error(Formal) ]) :-
     strategy_memory(1, M),
-    next_host(teleport, [b], a, M, _, _).
-test(unbound, error(instantiation_error)) :-
-    strategy_memory(1, M),
-    next_host(_, [b], a, M, _, _).
-test(epsilon, error(domain_error(probability, 2))) :-
-    strategy_memory(1, M),
-    next_host(epsilon_conscientious(2), [b], a, M, _, _).
+    next_host(Strategy, [b], a, M, _, _).
 test(memory_is_ground_and_small, true) :-
     strategy_memory(1, M0),
     next_host(conscientious, [b, c], a, M0, _, M),
