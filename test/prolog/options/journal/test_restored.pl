@@ -6,7 +6,7 @@
 */
 
 :- use_module('../../../lib/common').
-:- use_module('../../../lib/fixtures', [capturing/2]).
+:- use_module('../../../lib/fixtures', [capturing/2, was_printed/2]).
 :- use_module(library(apply), [foldl/4]).
 :- use_module(library(lists),
               [append/2, append/3, delete/3, member/2, numlist/3]).
@@ -144,7 +144,8 @@ itself(P1-A1, P2-A2, Letter, Dir) :-
 is_process(Process, Address, Start) :-
     endpoint_process(Process),
     endpoint_address(Address),
-    typhon_endpoint:starts(Start).
+    sync_changes,
+    durable_item(endpoint, any, _, _, endpoint(_, Start, _, _)).
 
 test(host_that_stops_beside_others_is_not_restored,
      [Hosts, Agents] == [[alpha], [stays]]) :-
@@ -347,7 +348,7 @@ failing(Sync, Before, After, Dir) :-
                              throw(error(resource_error(journal_space), _))),
               capturing(( change(put(1, 1)),
                           send_after_commit(restored(1), now),
-                          wait_until(typhon_committing:reported(_), 20),
+                          wait_until(was_printed(error, error(_, _)), 20),
                           catch(sync_changes, error(Formal, _), true) ), _),
               unwrap_predicate(typhon_store:store_commit/1, restored)),
           findall(N, sent(restored(N), _), Before),

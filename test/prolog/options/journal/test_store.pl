@@ -62,7 +62,7 @@ test(commits_are_synced_on_demand,
        true(Synchronous == Expected) ]) :-
     with_tmp_dir(Dir,
         ( with_store(Dir, Sync,
-                     ( typhon_store:connection(_, Connection),
+                     ( odbc:odbc_current_connection(Connection, _),
                        odbc:odbc_query(Connection, 'pragma synchronous',
                                        row(Synchronous), [types([integer])]) )) )).
 
