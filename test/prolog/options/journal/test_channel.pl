@@ -390,6 +390,26 @@ posted_all :-
     forall(member(N, All), agent_send(Id, N)),
     got(Id, All).
 
+%   Both processes die before the post can be sent.
+
+test(posts_are_sent_after_a_restart_of_their_sender) :-
+    no_leaks(with_tmp_dir(sender_dies)).
+
+sender_dies(Dir) :-
+    findall(Peer-[host([journal(Journal)])],
+            ( member(Peer, [sender, there]),
+              atomic_list_concat([Dir, /, Peer], Journal) ), Peers),
+    with_peers(Peers,
+               ( peer_host(there, Host),
+                 listener(Host, Id),
+                 peer_do(sender, remote(Host, true)),
+                 peer_kill(there),
+                 peer_do(sender, agent_send(Id, hello)),
+                 peer_kill(sender),
+                 peer_restart(there),
+                 peer_restart(sender),
+                 got(Id, [hello]) )).
+
 :- end_tests(channel_plain).
 
 %   Posts 1, 2 and so on, of which some are lost, repeated, or sent again from an
