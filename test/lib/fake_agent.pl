@@ -10,11 +10,16 @@
             did/1,                      % -Acts
             did_just/1,                 % +Acts
             tuples/1,                   % -Tuples
-            just_tuples/1               % +Tuples
+            just_tuples/1,              % +Tuples
+            fake_fact/1,                % +Fact
+            fake_run/4,                 % +Before, +Goal, +Checks, -Wrong
+            alike/2                     % ?Expected, +Term
           ]).
 :- use_module(common, [project_file/2]).
+:- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists)).
 :- use_module(library(readutil)).
+:- use_module(library(terms), [mapargs/3]).
 
 /** <module> An agent on a simulated host
 
@@ -209,3 +214,63 @@ tuples(Tuples) :-
 just_tuples(Tuples) :-
     tuples(All),
     All == Tuples.
+
+%!  fake_fact(+Fact) is det.
+%
+%   Fact is the only one of its name and arity that the agent has.
+
+fake_fact(Fact) :-
+    functor(Fact, Name, Arity),
+    functor(General, Name, Arity),
+    retractall(fake_agent:General),
+    assertz(fake_agent:Fact).
+
+%!  fake_run(+Before, +Goal, +Checks, -Wrong) is det.
+%
+%   Call the goals Before of this module, then Goal of the agent. Wrong are the
+%   Checks that fail then: a goal of the agent, or Name=Expected, where Name is
+%   `end` (of Goal: true, fail or what it raises; true if no check is about it),
+%   `did`, `tuples`, `time`, or that of a fact with one argument.
+
+fake_run(Before, Goal, Checks0, Wrong) :-
+    maplist(call, Before),
+    end_of(Goal, End),
+    (   memberchk(end=_, Checks0)
+    ->  Checks = Checks0
+    ;   Checks = [end=true|Checks0]
+    ),
+    findall(Check, ( member(Check, Checks), \+ holds(Check, End) ), Wrong).
+
+end_of(Goal, End) :-
+    (   catch(fake_agent:Goal, End, true)
+    ->  ( var(End) -> End = true ; true )
+    ;   End = fail
+    ).
+
+holds(Name=Expected, End) :-
+    !,
+    once(( seen(Name, End, Value), alike(Expected, Value) )).
+holds(Goal, _) :-
+    once(fake_agent:Goal).
+
+seen(end, End, End) :- !.
+seen(did, _, Acts) :- !, did(Acts).
+seen(tuples, _, Tuples) :- !, tuples(Tuples).
+seen(time, _, Time) :- !, fake_host:time(Time).
+seen(Name, _, Value) :-
+    call(fake_agent:Name, Value).
+
+%!  alike(?Expected, +Term) is semidet.
+%
+%   Term is an instance of Expected, whose numbers are those of Term to nine
+%   digits.
+
+alike(Expected, Term) :-
+    (   number(Expected),
+        number(Term)
+    ->  abs(Expected-Term) =< 1.0e-9*max(1, abs(Term))
+    ;   compound(Expected),
+        compound(Term)
+    ->  mapargs(alike, Expected, Term)
+    ;   Expected = Term
+    ).

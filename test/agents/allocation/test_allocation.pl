@@ -1,9 +1,12 @@
 :- module(test_allocation, []).
 :- use_module('../../lib/common', []).
 :- use_module('../../lib/fake_agent').
+:- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply)).
 :- use_module(library(lists)).
 :- use_module(library(plunit)).
+:- use_module(library(terms), [mapargs/3]).
+:- use_module(library(yall)).
 :- use_module('../../../prolog/typhon').
 :- use_module('../../../agents/allocation/reservations').
 :- use_module('../../../agents/allocation/operator').
@@ -14,9 +17,6 @@
 
 /** <module> Allocation: equations, and decisions on a simulated host
 */
-
-close_to(X, Y) :-
-    abs(X - Y) < 1.0e-6.
 
                 /*******************************
                 *           EQUATIONS          *
@@ -34,34 +34,38 @@ lasts(Chi0, Found, Visited0, Hops) :-
     lasts(Chi, Found, Visited, Hops0),
     Hops is Hops0 + 1.
 
+%   equation(Name, Goal, Value): Value is the last argument that Goal lacks.
+
+equation(equation_7_1, rewarded(2, 0.5, 10, 0), 3).     % 2 (1 + 1/2 * 10/10)
+equation(reward_falls_with_the_missing_robots,
+         rewarded(2, 0.5, 10, 9), 2.1).                 % 2 (1 + 1/2 * 1/10)
+equation(equation_7_2, penalised(2, 0.5, 2, 10, 4), 1.75). % 2 (1 - 1/2 * 2/8)
+equation(decay_on_new_hosts_is_a_fifth, decayed(10, 7, 8, 5), 8).
+equation(decay_at_the_joint_is_a_fifth, decayed(10, 7, 7, 5), 8). % tan(pi/4)
+equation(decay_is_slow_in_a_large_network, decayed(1, 100, 0, 5), Chi) :-
+    Chi is 1 - tan(pi/104)/5.
+equation(equation_7_3, decayed(1, 8, 0, 5), Chi) :-
+    Chi is 1 - tan(pi/12)/5.
+equation(first_search_on_new_hosts_lasts_31_hops, lasts(10, 0, 1), 31).
+equation(equation_7_5, interval(15, 1, 500, 0.5), 30).  % 15 + 30/2
+equation(longest_interval, interval(15, 2, 500, 1.0), 75). % 15 + 60
+equation(shortest_interval, interval(15, 3, 500, 0.0), 15).
+equation(intervals_are_bounded, interval(15, Count, 500, 1.0), 515) :-
+    member(Count, [6, 60, 5000]).
+equation(equation_7_6, reach_time(30, 0.5), 15).
+equation(equation_7_7, bid_time(Bids, 10), Theta) :-
+    member(Bids-Theta, [0-10, 1-10, 7-70]).
+
 :- begin_tests(mobility_resource).
 
-test(equation_7_1, Chi =:= 3.0) :-            % 2 (1 + 1/2 * 10/10)
-    rewarded(2, 0.5, 10, 0, Chi).
-test(reward_falls_with_the_missing_robots) :-     % 2 (1 + 1/2 * 1/10)
-    rewarded(2, 0.5, 10, 9, Chi),
-    close_to(Chi, 2.1).
-test(equation_7_2) :-                        % 2 (1 - 1/2 * 2/(2 + 6))
-    penalised(2, 0.5, 2, 10, 4, Chi),
-    close_to(Chi, 1.75).
+test(equation, [ forall(equation(_, Goal, Expected)),
+                 true(alike(Expected, Value)) ]) :-
+    call(Goal, Value).
 test(penalty_decrements_and_is_above_zero,
      [ forall(( member(Held, [0, 5, 9]), member(Times, [1, 10, 100]) )) ]) :-
     penalised(2, 1, Times, 10, Held, Chi),
     Chi < 2,
     Chi > 0.
-test(decay_on_new_hosts_is_a_fifth, Chi =:= 8.0) :-
-    decayed(10, 7, 8, 5, Chi).
-test(decay_at_the_joint_is_a_fifth) :-          % tan(pi/4) = 1
-    decayed(10, 7, 7, 5, Chi),
-    close_to(Chi, 8).
-test(decay_is_slow_in_a_large_network) :-
-    decayed(1, 100, 0, 5, Chi),
-    close_to(Chi, 0.9939571).                   % 1 - tan(pi/104)/5
-test(equation_7_3) :-
-    decayed(1, 8, 0, 5, Chi),
-    close_to(Chi, 0.9464102).                   % 1 - tan(15 degrees)/5
-test(first_search_on_new_hosts_lasts_31_hops, Hops == 31) :-
-    lasts(10, 0, 1, Hops).
 test(equation_7_4, [ forall(member(Found-Chi,
                               [10-0.028, 30-0.050, 100-0.100])) ]) :-
     restarted(Found, 5, 0.01, Chi0),
@@ -71,26 +75,57 @@ test(restart_lasts_one_hop_more_than_robots_are_known,
        Hops =:= Found + 1 ]) :-
     restarted(Found, 5, 0.01, Chi),
     lasts(Chi, Found, 0, Hops).
-test(equation_7_5) :-
-    interval(15, 1, 500, 0.5, Middle),
-    Middle =:= 30.0,                            % 15 + 30/2
-    interval(15, 2, 500, 1.0, Longest),
-    Longest =:= 75.0,                           % 15 + 60
-    interval(15, 3, 500, 0.0, Shortest),
-    Shortest =:= 15.0.
-test(equation_7_6, Theta =:= 15.0) :-
-    reach_time(30, 0.5, Theta).
-test(intervals_are_bounded, [ forall(member(Count, [6, 60, 5000])),
-                              Interval =:= 515.0 ]) :-
-    interval(15, Count, 500, 1.0, Interval).
-test(equation_7_7, Thetas == [10, 10, 70]) :-
-    maplist([Bids, Theta]>>bid_time(Bids, 10, Theta), [0, 1, 7], Thetas).
 
 :- end_tests(mobility_resource).
 
                 /*******************************
                 *       NEEDS, WAYS, LOGS      *
                 *******************************/
+
+%   trail(Name, Goal, Trail), way(Name, Goal, Host-Distance): what Goal adds, or
+%   `none`. Trails begin with the last host.
+
+trail(step, stepped(d, [c, e], [], [c, b, a]), [d, c, b, a]).
+trail(step_over_a_removed_link, stepped(d, [], [a], [c, b, a]), [d, c, b, a]).
+trail(cycle_is_removed, stepped(b, [d, c], [], [d, c, b, a]), [b, a]).
+trail(detour_is_shortened, stepped(e, [b, d], [a], [d, c, b, a]), [e, b, a]).
+trail(path_is_not_shortened_past_a_robot,
+      stepped(e, [d, c, b], [c], [d, c, b, a]), [e, c, b, a]).
+trail(round_trip_with_a_robot_is_kept,
+      stepped(b, [d], [c, x], [d, c, b, a]), [b, d, c, b, a]).
+trail(round_trip_to_a_robot, stepped(c, [d], [c], [d, c, b, a]), [c, b, a]).
+
+way(back_step_by_step, nearer([d, c, b, a], [a], [x, c], 4), c-2).
+way(back_by_a_shortcut, nearer([d, c, b, a], [a], [c, b], 4), b-1).
+way(path_to_the_nearest_robot, nearer([d, c, b, a], [a, c], [c, b], 4), c-0).
+way(path_leads_forward_too, nearer([d, c, b, a], [d], [a, d, b], 4), d-0).
+way(neighbour_that_is_not_nearer_is_ignored,
+    nearer([d, c, b, a], [a], [c], 2), none).
+way(broken_path, nearer([c, b, a], [a], [x, y], 3), none).
+way(path_without_robots, nearer([c, b, a], [z], [c, b], 3), none).
+
+%   costs(Payload, Details, Properties, Cost)
+
+costs(nearest, [at(p(4, 6))], [position=p(1, 2)], 5.0).
+costs(nearest, [], [position=p(1, 2)], 0).      % to the same host
+costs(energy, [energy(2)], [battery=4], 0.5).
+costs(energy, [energy(2)], [battery=1], none).
+
+%   faults(Name, Events, Faults)
+
+faults(no_faults, [ begun(t), reserved(h, a, t), executed(h, a, t), ended(done),
+                    released(h, a, t), reserved(h, b, u), released(h, b, u) ],
+       []).
+faults(reserved_twice, [ reserved(h, a, t), reserved(h, b, u),
+                         released(h, b, u) ], [twice(h, a, b, 2)]).
+faults(reserved_twice_by_one_allocator,
+       [reserved(h, a, t), reserved(h, a, t), released(h, a, t)],
+       [twice(h, a, a, 2)]).
+faults(stray_robots, [ executed(h, a, t), reserved(h, a, t), executed(h, b, t),
+                       released(h, b, t) ],
+       [ stray(h, a, executed, 1), stray(h, b, executed, 3),
+         stray(h, b, released, 4), held(h, a, t) ]).
+faults(still_reserved, [reserved(h, a, t)], [held(h, a, t)]).
 
 :- begin_tests(allocation_terms).
 
@@ -115,103 +150,50 @@ test(required, Count == 5) :-
 test(open_teams, Open == [2]) :-
     findall(Team, open_team([1-[a], 2-[b], 1-[c]], [3, 2, 1], Team, _),
             Open).
-
 test(what_each_robot_executes,
      [ forall(member(Details-Is, [ []-sleep(5), [duration(2)]-sleep(2),
                                    [duration(2), goal(dig)]-dig ])),
        Goal == Is ]) :-
     task_goal(Details, Goal).
-
-test(step, Trail == [d, c, b, a]) :-
-    stepped(d, [c, e], [], [c, b, a], Trail).
-test(step_over_a_removed_link, Trail == [d, c, b, a]) :-
-    stepped(d, [], [a], [c, b, a], Trail).
-test(cycle_is_removed, Trail == [b, a]) :-
-    stepped(b, [d, c], [], [d, c, b, a], Trail).
-test(detour_is_shortened, Trail == [e, b, a]) :-
-    stepped(e, [b, d], [a], [d, c, b, a], Trail).
-test(path_is_not_shortened_past_a_robot, Trail == [e, c, b, a]) :-
-    stepped(e, [d, c, b], [c], [d, c, b, a], Trail).
-test(round_trip_with_a_robot_is_kept, Trail == [b, d, c, b, a]) :-
-    stepped(b, [d], [c, x], [d, c, b, a], Trail).
-test(round_trip_to_a_robot, Trail == [c, b, a]) :-
-    stepped(c, [d], [c], [d, c, b, a], Trail).
+test(trail_is_short_and_passes_the_robots,
+     [ forall(trail(_, Goal, Expected)), Trail == Expected ]) :-
+    call(Goal, Trail).
 test(links, Counts == [0, 2, 4]) :-
     maplist([Host, Count]>>links(Host, [d, c, b, a], Count), [d, b, x],
             Counts).
-test(back_step_by_step, Host-Distance == c-2) :-
-    nearer([d, c, b, a], [a], [x, c], 4, Host, Distance).
-test(back_by_a_shortcut, Host-Distance == b-1) :-
-    nearer([d, c, b, a], [a], [c, b], 4, Host, Distance).
-test(path_to_the_nearest_robot, Host-Distance == c-0) :-
-    nearer([d, c, b, a], [a, c], [c, b], 4, Host, Distance).
-test(path_leads_forward_too, Host-Distance == d-0) :-
-    nearer([d, c, b, a], [d], [a, d, b], 4, Host, Distance).
-test(neighbour_that_is_not_nearer_is_ignored, fail) :-
-    nearer([d, c, b, a], [a], [c], 2, _, _).
-test(broken_path, fail) :-
-    nearer([c, b, a], [a], [x, y], 3, _, _).
-test(path_without_robots, fail) :-
-    nearer([c, b, a], [z], [c, b], 3, _, _).
+test(way_to_the_next_robot,
+     [forall(way(_, Goal, Expected)), Way == Expected]) :-
+    ( call(Goal, Host, Distance) -> Way = Host-Distance ; Way = none ).
 
-cost_of(Payload, Details, Properties, Cost) :-
-    payload_clauses(Payload, Clauses),
-    maplist([Clause]>>assertz(test_allocation_payload:Clause), Clauses),
-    call_cleanup(
-        once(test_allocation_payload:cost(need(t, [], Details), Properties,
-                                          Cost)),
-        abolish(test_allocation_payload:cost/3)).
+with_payload(Payload, Goal) :-
+    typhon_programs:payload_load(payloads(allocation/Payload),
+                                 payload(_, _, Clauses)),
+    setup_call_cleanup(
+        maplist([Clause]>>assertz(test_allocation_payload:Clause), Clauses),
+        once(Goal),
+        ( abolish(test_allocation_payload:cost/3),
+          abolish(test_allocation_payload:agreed/3) )).
 
-payload_clauses(Payload, Clauses) :-
-    typhon_programs:payload_load(Payload, payload(_, _, Clauses)).
-
-test(nearest, Cost =:= 5.0) :-
-    cost_of(payloads(allocation/nearest), [at(p(4, 6))], [position=p(1, 2)],
-            Cost).
-test(path_to_the_same_host_costs_nothing, Cost =:= 0) :-
-    cost_of(payloads(allocation/nearest), [], [position=p(1, 2)], Cost).
-test(energy, Cost =:= 0.5) :-
-    cost_of(payloads(allocation/energy), [energy(2)], [battery=4], Cost).
-test(too_little_energy, fail) :-
-    cost_of(payloads(allocation/energy), [energy(2)], [battery=1], _).
+test(cost_of_a_payload, [ forall(costs(Payload, Details, Properties, Expected)),
+                          Cost = Expected ]) :-
+    with_payload(Payload,
+                 (   test_allocation_payload:cost(need(t, [], Details),
+                                                  Properties, Cost)
+                 ;   Cost = none )).
 test(thrifty_accepts_higher_costs_with_each_round, Agreed == [2-0, 4-1, 8-2]) :-
-    payload_clauses(payloads(allocation/thrifty), [Clause]),
-    assertz(test_allocation_payload:Clause),
-    call_cleanup(
-        findall(Cost-Count,
-                ( member(Count, [0, 1, 2]), member(Cost, [8, 4, 2]),
-                  once(test_allocation_payload:agreed(Cost, [budget(2)],
-                                                      Count)) ),
-                All),
-        abolish(test_allocation_payload:agreed/3)),
-    findall(Most-Count,
-            ( member(Count, [0, 1, 2]),
-              findall(Cost, member(Cost-Count, All), Costs),
-              max_list(Costs, Most) ),
-            Agreed).
-
-faults(Whats, Faults) :-
+    with_payload(thrifty,
+                 findall(Most-Count,
+                         ( member(Count, [0, 1, 2]),
+                           aggregate_all(max(Cost),
+                                         ( member(Cost, [8, 4, 2]),
+                                           test_allocation_payload:agreed(
+                                               Cost, [budget(2)], Count) ),
+                                         Most) ),
+                         Agreed)).
+test(faults_of_reservations, [ forall(faults(_, Whats, Expected)),
+                               Faults == Expected ]) :-
     findall(event(Time, h, r, What), nth1(Time, Whats, What), Events),
     reservation_faults(Events, Faults).
-
-test(no_faults, Faults == []) :-
-    faults([ begun(t), reserved(h, a, t), executed(h, a, t), ended(done),
-             released(h, a, t), reserved(h, b, u), released(h, b, u) ],
-           Faults).
-test(reserved_twice, Faults == [twice(h, a, b, 2)]) :-
-    faults([ reserved(h, a, t), reserved(h, b, u), released(h, b, u) ],
-           Faults).
-test(reserved_twice_by_one_allocator, Faults == [twice(h, a, a, 2)]) :-
-    faults([ reserved(h, a, t), reserved(h, a, t), released(h, a, t) ],
-           Faults).
-test(stray_robots,
-     Faults == [ stray(h, a, executed, 1), stray(h, b, executed, 3),
-                 stray(h, b, released, 4), held(h, a, t) ]) :-
-    faults([ executed(h, a, t), reserved(h, a, t), executed(h, b, t),
-             released(h, b, t) ],
-           Faults).
-test(still_reserved, Faults == [held(h, a, t)]) :-
-    faults([reserved(h, a, t)], Faults).
 
 test(wrong_tasks, [ forall(member(Task,
                                   [ _, task(t), task(t, [], []),
@@ -247,200 +229,147 @@ hear :-
     assertz((fake_agent:tell(Agent, Message) :-
                  fake_host:send(Agent, Message))).
 
-need(Task, need(Task, [push], [])).
-need(Task, Priority, need(Task, [push], [priority(Priority)])).
+%   step(+Step, -Result): a message, From-Message, has the reaction of the robot
+%   as its result, in which To-Message is sent; n(Task) and n(Task, Priority)
+%   are needs of a push. With `overdue` the time advances to that at which the
+%   robot asks or gives up.
 
-%   say(+From, +Message, -Acts): Acts are the robot's reaction to Message.
-
-say(From, Message, Acts) :-
-    retractall(fake_host:did(_)),
-    ignore(fake_agent:handle(From-Message)),
-    did(Acts).
-
-reserved(Ref, From) :-
-    need(Ref, Need),
-    say(From, reserve(Ref, owner, Need), Acts),
-    Acts == [ log(reserved(here, owner, Ref)),
-              send(From, answer(Ref, reserved)) ].
-
-hold(Ref, Phase) :-
-    fake_agent:hold(Ref, _, _, _, Phase).
-
-%   Sets the clock to the time at which the agent asks or gives up.
-
-overdue(Acts) :-
+step(reserve, Acts) :-
+    step(x-reserve(r, owner, n(r)), Acts0),
+    ( Acts0 == [log(reserved(here, owner, r)), x-answer(r, reserved)]
+    -> Acts = done ; Acts = Acts0 ).
+step(overdue, Acts) :-
     fake_agent:due(Time, _),
     fake_at(Time),
+    reaction(( fake_agent:next(Event), fake_agent:handle(Event) ), Acts).
+step(hold, Holds) :-
+    findall(Ref-Phase, fake_agent:hold(Ref, _, _, _, Phase), Holds).
+step(due, Dues) :-
+    findall(Time-Event, fake_agent:due(Time, Event), Dues).
+step(time, Time) :-
+    fake_host:time(Time).
+step(From-Message0, Acts) :-
+    mapargs(need, Message0, Message),
+    reaction(fake_agent:handle(From-Message), Acts).
+
+need(Arg, Need) :-
+    (   nonvar(Arg), Arg = n(Task)
+    ->  Need = need(Task, [push], [])
+    ;   nonvar(Arg), Arg = n(Task, Priority)
+    ->  Need = need(Task, [push], [priority(Priority)])
+    ;   Need = Arg
+    ).
+
+reaction(Goal, Acts) :-
     retractall(fake_host:did(_)),
-    fake_agent:next(Event),
-    fake_agent:handle(Event),
-    did(Acts).
+    ignore(Goal),
+    did(Acts0),
+    maplist([Act0, Act]>>( Act0 = send(To, What) -> Act = To-What
+                         ; Act = Act0 ), Acts0, Acts).
+
+%   talk(Name, Facts, Steps): Steps are Step=Result, or Step where it is `done`.
+
+talk(bids, [], [x-ask(r, n(t)) = [x-answer(r, bid(3))]]).
+talk(unfit, [property(lift)],
+     [ x-ask(r, need(t, [fly], [])) = [x-answer(r, refused(unfit))],
+       x-ask(r, need(t, [battery>=2], [])) = [x-answer(r, refused(unfit))],
+       x-ask(r, need(t, [lift], [])) = [x-answer(r, refused(unfit))] ]).
+talk(reserved_once, [],
+     [ reserve, y-ask(s, n(t)) = [y-answer(s, refused(reserved))],
+       y-reserve(s, other, n(t)) = [y-answer(s, refused(reserved))],
+       hold = [r-reserved] ]).
+talk(repeated_request_gets_the_same_answer, [],
+     [reserve, x-reserve(r, owner, n(r)) = [x-answer(r, reserved)]]).
+talk(released_by_the_reserving_allocator, [],
+     [ reserve, child-release(s) = [child-answer(s, released)],
+       hold = [r-reserved],
+       child-release(r) = [ log(released(here, owner, r)),
+                            child-answer(r, released) ],
+       hold = [], due = [] ]).
+talk(urgent_task_preempts_reservation, [],
+     [ reserve, y-ask(s, n(u, 1)) = [y-answer(s, bid(3))],
+       y-reserve(s, other, n(u, 1))
+       = [ log(released(here, owner, r)), x-lost(r, preempted),
+           log(reserved(here, other, u)), y-answer(s, reserved) ],
+       hold = [s-reserved] ]).
+talk(equal_task_does_not_preempt, [],
+     [ x-reserve(r, owner, n(t, 1)) = [_, _],
+       y-reserve(s, other, n(t, 1)) = [y-answer(s, refused(reserved))] ]).
+talk(executing_robot_is_not_preempted, [],
+     [ reserve, x-start(r, true) = [x-answer(r, started)],
+       y-reserve(s, other, n(u, 9)) = [y-answer(s, refused(executing))] ]).
+talk(without_reservation, [],
+     [ x-start(r, true) = [x-answer(r, refused(none))],
+       x-status(r) = [x-answer(r, status(none))] ]).
+talk(executed, [],
+     [ reserve, x-start(r, true) = [x-answer(r, started)],
+       x-status(r) = [x-answer(r, status(executing))],
+       child-finished(r, done) = [log(executed(here, owner, r)), x-done(r)],
+       x-status(r) = [x-answer(r, status(done))], hold = [r-done] ]).
+talk(message_of_an_earlier_execution_thread_is_ignored, [],
+     [reserve, x-start(r, true) = [_], other-finished(r, done) = []]).
+talk(failed_execution, [],
+     [ reserve, x-start(r, true) = [_],
+       child-finished(r, raised(oops)) = [ log(released(here, owner, r)),
+                                           x-lost(r, raised(oops)) ],
+       hold = [] ]).
+talk(failure, [],
+     [ reserve, user-fail = [ log(robot(failed)), log(released(here, owner, r)),
+                              x-lost(r, failed) ],
+       x-ask(s, n(t)) = [x-answer(s, refused(failed))],
+       user-repair = [log(robot(repaired))],
+       x-ask(s, n(t)) = [x-answer(s, bid(3))] ]).
+talk(state_changes, [],
+     [ x-ask(r, need(t, [push, battery=<0.5], []))
+       = [x-answer(r, refused(unfit))],
+       user-state(battery=0.2) = [],
+       x-ask(r, need(t, [push, battery=<0.5], [])) = [x-answer(r, bid(3))] ]).
+talk(robot_asks_whether_it_is_still_needed, [],
+     [reserve, due = [60-_], overdue = [x-still(r)]]).
+talk(silent_allocator_frees_the_robot,
+     [setting(watch, 10), setting(patience, 3)],
+     [ reserve, overdue = [_],
+       overdue = [log(released(here, owner, r)), x-lost(r, lapsed)],
+       time = 13 ]).
+talk(positive_answer_keeps_the_reservation,
+     [setting(watch, 10), setting(patience, 3)],
+     [ reserve, overdue = [_], x-yes(s) = [], due = [13-answer], x-yes(r) = [],
+       due = [20-ask], hold = [r-reserved] ]).
+talk(negative_answer_frees_the_robot, [],
+     [reserve, overdue = [_], x-no(r) = [log(released(here, owner, r))]]).
+talk(allocator_is_checked_during_execution, [],
+     [ reserve, x-start(r, true) = [_], overdue = [_],
+       overdue = [log(released(here, owner, r)), x-lost(r, lapsed)] ]).
+talk(checks_can_be_disabled, [setting(watch, inf)], [reserve, due = []]).
+talk(invalid_messages_are_ignored, [], [x-hello(r) = []]).
+
+wrong(Step0, Step-Result) :-
+    ( Step0 = (Step=Expected) -> true ; Step = Step0, Expected = done ),
+    step(Step, Result),
+    !,
+    \+ alike(Expected, Result).
 
 :- begin_tests(allocation_robot).
 
-test(bids, Acts == [send(x, answer(r, bid(3)))]) :-
+test(robot_reacts, [forall(talk(_, Facts, Steps)), Wrong == []]) :-
+    robot(Facts),
+    convlist(wrong, Steps, Wrong).
+test(start_without_capacity,
+     Acts-Holds == [x-answer(r, refused(capacity))]-[r-reserved]) :-
     robot([]),
-    need(t, Need),
-    say(x, ask(r, Need), Acts).
-test(unfit, [ forall(member(Requirements, [[fly], [battery>=2]])),
-              Acts == [send(x, answer(r, refused(unfit)))] ]) :-
-    robot([]),
-    say(x, ask(r, need(t, Requirements, [])), Acts).
-test(cost_payload_refuses,
-     Acts == [send(x, answer(r, refused(unfit)))]) :-
-    robot([property(lift)]),
-    say(x, ask(r, need(t, [lift], [])), Acts).
-test(reserved_once,
-     Acts1-Acts2 == [send(y, answer(s, refused(reserved)))]
-                    -[send(y, answer(s, refused(reserved)))]) :-
-    robot([]),
-    reserved(r, x),
-    need(t, Need),
-    say(y, ask(s, Need), Acts1),
-    say(y, reserve(s, other, Need), Acts2),
-    hold(r, reserved).
-test(repeated_request_gets_the_same_answer,
-     Acts == [send(x, answer(r, reserved))]) :-
-    robot([]),
-    reserved(r, x),
-    need(r, Need),
-    say(x, reserve(r, owner, Need), Acts).
-test(released_by_the_reserving_allocator,
-     Acts == [ log(released(here, owner, r)),
-               send(child, answer(r, released))
-             ]) :-
-    robot([]),
-    reserved(r, x),
-    say(child, release(s), [send(child, answer(s, released))]),
-    hold(r, reserved),
-    say(child, release(r), Acts),
-    \+ hold(_, _),
-    \+ fake_agent:due(_, _).
-test(urgent_task_preempts_reservation,
-     Acts == [ log(released(here, owner, r)), send(x, lost(r, preempted)),
-               log(reserved(here, other, u)), send(y, answer(s, reserved))
-             ]) :-
-    robot([]),
-    reserved(r, x),
-    need(u, 1, Need),
-    say(y, ask(s, Need), [send(y, answer(s, bid(3)))]),
-    say(y, reserve(s, other, Need), Acts),
-    hold(s, reserved).
-test(equal_task_does_not_preempt,
-     Acts == [send(y, answer(s, refused(reserved)))]) :-
-    robot([]),
-    need(t, 1, Need),
-    say(x, reserve(r, owner, Need), _),
-    say(y, reserve(s, other, Need), Acts).
-test(executing_robot_is_not_preempted,
-     Acts == [send(y, answer(s, refused(executing)))]) :-
-    robot([]),
-    reserved(r, x),
-    say(x, start(r, true), [send(x, answer(r, started))]),
-    need(u, 9, Need),
-    say(y, reserve(s, other, Need), Acts).
-test(start_without_reservation,
-     Acts == [send(x, answer(r, refused(none)))]) :-
-    robot([]),
-    say(x, start(r, true), Acts).
-test(start_without_capacity, Acts == [send(x, answer(r, refused(capacity)))]) :-
-    robot([]),
-    reserved(r, x),
+    step(reserve, done),
     fake_clone(error(move_refused(here, capacity), _)),
-    say(x, start(r, true), Acts),
-    hold(r, reserved).
-test(executed, Acts == [log(executed(here, owner, r)), send(x, done(r))]) :-
-    robot([]),
-    reserved(r, x),
-    say(x, start(r, true), _),
-    say(x, status(r), [send(x, answer(r, status(executing)))]),
-    say(child, finished(r, done), Acts),
-    say(x, status(r), [send(x, answer(r, status(done)))]),
-    hold(r, done).
-test(message_of_an_earlier_execution_thread_is_ignored, Acts == []) :-
-    robot([]),
-    reserved(r, x),
-    say(x, start(r, true), _),
-    say(other, finished(r, done), Acts).
-test(failed_execution, Acts == [ log(released(here, owner, r)),
-                                 send(x, lost(r, raised(oops))) ]) :-
-    robot([]),
-    reserved(r, x),
-    say(x, start(r, true), _),
-    say(child, finished(r, raised(oops)), Acts),
-    \+ hold(_, _).
+    step(x-start(r, true), Acts),
+    step(hold, Holds).
 test(execution_thread_performs_the_task,
      [ forall(member(Goal-Outcome,
                      [ true-done, fail-failed, throw(oops)-raised(oops),
                        atom_length(_, _)-raised(instantiation_error) ])),
-       Act == send(robot, finished(r, Outcome)) ]) :-
+       Acts == [robot-finished(r, Outcome)] ]) :-
     robot([]),
-    reserved(r, x),
-    retractall(fake_host:did(_)),
+    step(reserve, done),
     fake_clone(clone(robot)),
-    catch(fake_agent:handle(x-start(r, Goal)), disposed, true),
-    did([Act]).
-test(status_without_reservation, Acts == [send(x, answer(r, status(none)))]) :-
-    robot([]),
-    say(x, status(r), Acts).
-test(failure, Acts == [ log(robot(failed)), log(released(here, owner, r)),
-                        send(x, lost(r, failed)) ]) :-
-    robot([]),
-    reserved(r, x),
-    say(user, fail, Acts),
-    need(t, Need),
-    say(x, ask(s, Need), [send(x, answer(s, refused(failed)))]),
-    say(user, repair, [log(robot(repaired))]),
-    say(x, ask(s, Need), [send(x, answer(s, bid(3)))]).
-test(state_changes, Acts == [send(x, answer(r, bid(3)))]) :-
-    robot([]),
-    Need = need(t, [push, battery=<0.5], []),
-    say(x, ask(r, Need), [send(x, answer(r, refused(unfit)))]),
-    say(user, state(battery=0.2), []),
-    say(x, ask(r, Need), Acts).
-test(robot_asks_whether_it_is_still_needed,
-     Asked-Time == [send(x, still(r))]-60) :-
-    robot([]),
-    reserved(r, x),
-    fake_agent:due(Time, _),
-    overdue(Asked).
-test(silent_allocator_frees_the_robot, Acts == [ log(released(here, owner, r)),
-                                                 send(x, lost(r, lapsed)) ]) :-
-    robot([setting(watch, 10), setting(patience, 3)]),
-    reserved(r, x),
-    overdue(_),
-    overdue(Acts),
-    fake_host:time(13).
-test(positive_answer_keeps_the_reservation) :-
-    robot([setting(watch, 10), setting(patience, 3)]),
-    reserved(r, x),
-    overdue(_),
-    say(x, yes(s), []),
-    fake_agent:due(13, answer),
-    say(x, yes(r), []),
-    fake_agent:due(20, ask),
-    hold(r, reserved).
-test(negative_answer_frees_the_robot,
-     Acts == [log(released(here, owner, r))]) :-
-    robot([]),
-    reserved(r, x),
-    overdue(_),
-    say(x, no(r), Acts).
-test(allocator_is_checked_during_execution,
-     Acts == [ log(released(here, owner, r)),
-               send(x, lost(r, lapsed)) ]) :-
-    robot([]),
-    reserved(r, x),
-    say(x, start(r, true), _),
-    overdue(_),
-    overdue(Acts).
-test(checks_can_be_disabled) :-
-    robot([setting(watch, inf)]),
-    reserved(r, x),
-    \+ fake_agent:due(_, _).
-test(invalid_messages_are_ignored, Acts == []) :-
-    robot([]),
-    say(x, hello(r), Acts).
+    reaction(catch(fake_agent:handle(x-start(r, Goal)), disposed, true), Acts).
 
 :- end_tests(allocation_robot).
 
@@ -463,251 +392,164 @@ allocator(Facts) :-
                [robot(r)]),
     hear.
 
-push(ask(ref(me, 0, 3, 1), need(t, [push], [duration(4)]))).
-lift(ask(ref(me, 0, 3, 2), need(t, [lift], [duration(4)]))).
+ref(Team, ref(me, 0, 3, Team)).
 
-answers(Team, What) :-
-    fake_mail(r-answer(ref(me, 0, 3, Team), What)).
+push(send(r, ask(Ref, need(t, [push], [duration(4)])))) :- ref(1, Ref).
+lift(send(r, ask(Ref, need(t, [lift], [duration(4)])))) :- ref(2, Ref).
 
-chi(Chi) :-
-    fake_agent:chi(Chi).
+%   negotiation(Name, Facts, Answers, Checks): the robot gives Answers,
+%   Team-What.
+
+negotiation(reservation_is_rewarded, [], [1-bid(3), 1-reserved],
+            [ did=[Push, send(r, reserve(Ref, me, _))],
+              held(here, r, Ref, 1, reserved),
+              \+ sent(message, _),      % the robot is at the same host
+              chi=1.5 ]) :-             % 1 (1 + 1/2 * 3/3)
+    push(Push),
+    ref(1, Ref).
+negotiation(reservations_are_shared, [setting(sharing, own)],
+            [1-bid(3), 1-reserved], [news(here, [push], taken, _)]).
+negotiation(robot_for_the_other_team, [],
+            [1-refused(unfit), 2-bid(0), 2-reserved],
+            [ did=[Push, Lift, send(r, reserve(_, _, _))],
+              held(here, r, _, 2, reserved) ]) :-
+    push(Push),
+    lift(Lift).
+negotiation(complete_team_gets_no_request,
+            [held(b, q, x, 1, reserved), achieved(1)], [2-refused(unfit)],
+            [did=[Lift]]) :-
+    lift(Lift).
+negotiation(refusal_is_penalised, [], [1-refused(Reason)], [chi=0.875]) :-
+    member(Reason, [reserved, executing]). % 1 (1 - 1/2 * 1/(1 + 3))
+negotiation(no_penalty, [], [1-What], [chi=1, \+ held(_, _, _, _, _)]) :-
+    member(What, [refused(failed), bid(11)]).
+negotiation(expensive_robot_is_not_reserved, [], [1-bid(11), 1-reserved],
+            [did=[Push]]) :-
+    push(Push).
+negotiation(silent_robot_is_skipped, [], [], [chi=1, time=20]).
+negotiation(already_reserved_robot_gets_no_request,
+            [held(here, r, x, 1, reserved)], [], [did=[]]).
+
+%   acts(Name, Facts, Before, Goal, Checks), see fake_run/4.
+
+acts(second_reward_is_less, [held(b, q, x, 1, reserved)],
+     [ fake_fact(sojourn(3, 2, 1, 0)), fake_mail(r-answer(Ref, bid(3))),
+       fake_mail(r-answer(Ref, reserved)) ], negotiate, [chi=Chi]) :-
+    ref(1, Ref),
+    Chi is 5/3.                         % 1 (1 + 2/2 * 2/3)
+acts(migrates, [], [], proceed,         % 3 found, 3 visited: a fifth
+     [did=[move(next)], chi=0.8, sojourn(4, 3, 0, 0), sent(migration, 1)]).
+acts(refused_move_counts, [], [fake_refusal(next)], proceed,
+     [sent(refusal, 1), sojourn(3, 2, 0, 0), time=1]).
+acts(backs_off, [ held(b, q, x, 1, reserved), held(a, p, y, 2, done),
+                  setting(backoff, constant) ], [fake_fact(chi(0.01))], proceed,
+     [ did=[log(backoff(Interval))],    % a child is about
+       time=Interval, ( fake_host:time(T), T >= 10, T =< 30 ), backoffs=1,
+       \+ held(_, _, _, _, _), achieved=2, sojourn(0, 0, 0, 0), trail=[here],
+       chi=Chi ]) :-
+    restarted(3, 5, 0.01, Chi).
+acts(newer_information_is_carried_and_left,
+     [ setting(sharing, shared), news(b, [push], taken, 5),
+       news(a, [lift], free, 7) ],
+     [fake_host:leave(robots([ news(b, [push], free, 6),
+                               news(a, [lift], taken, 6) ]))], exchange,
+     [ ( sense(robots(News)),
+         msort(News, [news(a, [lift], free, 7), news(b, [push], free, 6)]) ),
+       news(b, [push], free, 6) ]).
+acts(without_sharing_no_information_is_left,
+     [setting(sharing, Sharing), news(b, [push], free, 5)], [], exchange,
+     [\+ sense(robots(_))]) :-
+    member(Sharing, [none, own]).
+acts(migrates_to_the_last_reported_free_neighbour,
+     [ setting(sharing, own), news(b, [push], free, 5),
+       news(c, [push], free, 6), news(d, [push], taken, 7),
+       news(e, [fly], free, 8), news(f, [push], free, 9) ],
+     [fake_neighbours([b, c, d, e])], next_place(Host), [Host == c]).
+acts(no_free_neighbour_is_known,
+     [setting(sharing, own), news(f, [push], free, 9)],
+     [fake_neighbours([b, c])], next_place(Host), [Host == next]).
+acts(releases_are_shared,
+     [setting(sharing, own), held(here, r, x, 1, reserved)], [fake_at(9)],
+     deallocate([reserved]), [news(here, [push], free, 9)]).
+acts(executing_robots_are_not_released,
+     [held(b, q, x, 1, started), setting(backoff, constant)], [], back_off,
+     [held(b, q, x, 1, started), trail=[here, b, a]]).
+acts(child_returns, Held, [fake_clone(clone(me)), fake_neighbours([b, a, c])],
+     deallocate([reserved]),
+     [ end=disposed,
+       did=[ move(b), send(q, release(x)), move(a), send(p, release(y)),
+             log(communications(child, 2)) ] ]) :-
+    two_reserved(Held).
+acts(child_skips_a_host_that_refuses_it, Held,
+     [ fake_clone(clone(me)), fake_neighbours([b, a, c]), fake_refusal(b),
+       fake_refusal(next) ], deallocate([reserved]),
+     [ end=disposed,
+       did=[move(a), send(p, release(y)), log(not_reached([b]))|_],
+       fake_host:did(log(communications(child, 1))),
+       ( fake_host:did(log(communications(refusal, Count))), Count > 200 ) ]) :-
+    two_reserved(Held).
+acts(no_capacity_for_a_child, Held,
+     [fake_clone(error(move_refused(here, capacity), _))],
+     deallocate([reserved]),
+     [ ( findall(Act, fake_host:did(Act), Acts),
+         msort(Acts, [send(p, release(y)), send(q, release(x))]) ),
+       sent(message, 3) ]) :-
+    two_reserved(Held).
+acts(shares, [], [], shares(2, [a, b, c, d, e], Shares),
+     [Shares == [[a, b, c], [d, e]]]).
+acts(no_more_shares_than_robots, [], [], shares(5, [a, b], Shares),
+     [Shares == [[a], [b]]]).
+acts(robot_asks_whether_it_is_needed, [held(a, p, y, 2, reserved)],
+     [fake_mail(p-still(y)), fake_mail(q-still(x))], attend,
+     [ did=[send(p, yes(y)), send(q, no(x))],
+       sent(message, 4) ]).             % two links, there and back
+acts(lost_robot, [held(a, p, y, 2, reserved)],
+     [fake_mail(p-lost(z, preempted)), fake_mail(p-lost(y, preempted))], attend,
+     [did=[log(lost(a, preempted))], \+ held(_, _, _, _, _)]).
+acts(task_of_a_lost_robot_stays_done, [held(a, p, y, 2, done)],
+     [fake_mail(p-lost(y, lapsed))], attend,
+     [\+ held(_, _, _, _, _), achieved=2]).
+acts(deadline_counts_from_the_start, [],
+     [fake_fact(task(t, [1-[push]], [deadline(20)])), fake_at(7)], prepare,
+     [until=27]).
+acts(deadline, [], [fake_fact(until(30)), fake_at(30)], attend, [end=missed]).
+acts(back_off_ends_at_the_deadline, [], [fake_fact(until(30))], rest(100),
+     [end=missed, time=30]).
+acts(executes, Held,
+     [ fake_mail(p-answer(y, started)), fake_mail(q-done(x)),
+       fake_mail(p-done(y)) ], execute(Outcome),
+     [ Outcome == done,
+       did=[send(p, start(y, sleep(4))), send(q, start(x, sleep(4)))] ]) :-
+    team(reserved, reserved, Held).
+acts(refused_robot_is_missing, Held, [fake_mail(p-answer(y, refused(none)))],
+     execute(Outcome), [Outcome == missing, held(b, q, x, 2, started)]) :-
+    team(reserved, reserved, Held).
+acts(silent_robot_is_removed, Held, [], execute(Outcome),
+     [ Outcome == missing, time=20,
+       did=[ send(p, start(y, sleep(4))), send(p, status(y)),
+             log(lost(a, silent)), send(p, release(y)) ] ]) :-
+    team(reserved, done, Held).
+acts(answering_robot_is_kept, Held, [],
+     ( inquire([], Asked), test_fake_agent:fake_mail(p-answer(y, status(done))),
+       monitor(Asked, 10, Outcome) ),
+     [Asked == [p], Outcome == done]) :-
+    team(started, done, Held).
+
+two_reserved([held(a, p, y, 2, reserved), held(b, q, x, 1, reserved)]).
+
+team(P, Q, [held(a, p, y, 1, P), held(b, q, x, 2, Q), achieved(1)]).
 
 :- begin_tests(allocation_allocator).
 
-test(reservation_is_rewarded) :-       % 1 (1 + 1/2 * 3/3)
-    allocator([]),
-    answers(1, bid(3)),
-    answers(1, reserved),
-    fake_agent:negotiate,
-    push(Push),
-    Push = ask(Ref, Need),
-    did([send(r, Push), send(r, reserve(Ref, me, Need))]),
-    fake_agent:held(here, r, Ref, 1, reserved),
-    \+ fake_agent:sent(message, _),    % the robot is at the same host
-    chi(Chi),
-    Chi =:= 1.5.
-test(second_reward_is_less) :-          % 1 (1 + 2/2 * 2/3)
-    allocator([held(b, q, x, 1, reserved)]),
-    retractall(fake_agent:sojourn(_, _, _, _)),
-    assertz(fake_agent:sojourn(3, 2, 1, 0)),
-    answers(1, bid(3)),
-    answers(1, reserved),
-    fake_agent:negotiate,
-    chi(Chi),
-    close_to(Chi, 5/3).
-test(robot_for_the_other_team) :-
-    allocator([]),
-    answers(1, refused(unfit)),
-    answers(2, bid(0)),
-    answers(2, reserved),
-    fake_agent:negotiate,
-    push(Push),
-    lift(Lift),
-    did([send(r, Push), send(r, Lift), send(r, reserve(_, _, _))]),
-    fake_agent:held(here, r, _, 2, reserved).
-test(complete_team_gets_no_request) :-
-    allocator([held(b, q, x, 1, reserved), achieved(1)]),
-    answers(2, refused(unfit)),
-    fake_agent:negotiate,
-    lift(Lift),
-    did([send(r, Lift)]).
-test(refusal_is_penalised, [ forall(member(Reason, [reserved, executing])) ]) :-
-    allocator([]),                      % 1 (1 - 1/2 * 1/(1 + 3))
-    answers(1, refused(Reason)),
-    fake_agent:negotiate,
-    chi(Chi),
-    close_to(Chi, 0.875).
-test(no_penalty, [ forall(member(What, [refused(failed), bid(11)])) ]) :-
-    allocator([]),
-    answers(1, What),
-    fake_agent:negotiate,
-    chi(1),
-    \+ fake_agent:held(_, _, _, _, _).
-test(expensive_robot_is_not_reserved, Acts == [send(r, Push)]) :-
-    allocator([]),
-    push(Push),
-    answers(1, bid(11)),
-    answers(1, reserved),
-    fake_agent:negotiate,
-    did(Acts).
-test(silent_robot_is_skipped, Time == 20) :-
-    allocator([]),
-    fake_agent:negotiate,
-    chi(1),
-    fake_host:time(Time).
-test(already_reserved_robot_gets_no_request) :-
-    allocator([held(here, r, x, 1, reserved)]),
-    fake_agent:negotiate,
-    did([]).
-test(migrates) :-                       % 3 found, 3 visited: a fifth
-    allocator([]),
-    fake_agent:proceed,
-    did([move(next)]),
-    chi(Chi),
-    close_to(Chi, 0.8),
-    fake_agent:sojourn(4, 3, 0, 0),
-    fake_agent:sent(migration, 1).
-test(refused_move_counts) :-
-    allocator([]),
-    fake_refusal(next),
-    fake_agent:proceed,
-    fake_agent:sent(refusal, 1),
-    fake_agent:sojourn(3, 2, 0, 0),
-    fake_host:time(1).
-test(backs_off) :-
-    allocator([ held(b, q, x, 1, reserved), held(a, p, y, 2, done),
-                setting(backoff, constant) ]),
-    retractall(fake_agent:chi(_)),
-    assertz(fake_agent:chi(0.01)),
-    fake_agent:proceed,
-    did([log(backoff(Interval))]),      % a child is about
-    Interval >= 10,
-    Interval =< 30,
-    fake_host:time(Interval),
-    fake_agent:backoffs(1),
-    \+ fake_agent:held(_, _, _, _, _),
-    fake_agent:achieved(2),
-    fake_agent:sojourn(0, 0, 0, 0),
-    fake_agent:trail([here]),
-    restarted(3, 5, 0.01, Chi),
-    chi(Chi).
-test(newer_information_is_carried_and_left) :-
-    allocator([ setting(sharing, shared), news(b, [push], taken, 5),
-                news(a, [lift], free, 7) ]),
-    fake_host:leave(robots([ news(b, [push], free, 6),
-                             news(a, [lift], taken, 6) ])),
-    fake_agent:exchange,
-    fake_host:tuple(robots(News)),
-    msort(News, [news(a, [lift], free, 7), news(b, [push], free, 6)]),
-    fake_agent:news(b, [push], free, 6).
-test(without_sharing_no_information_is_left,
-     [forall(member(S, [none, own]))]) :-
-    allocator([setting(sharing, S), news(b, [push], free, 5)]),
-    fake_agent:exchange,
-    \+ fake_host:tuple(robots(_)).
-test(migrates_to_the_last_reported_free_neighbour, Host == c) :-
-    allocator([ setting(sharing, own), news(b, [push], free, 5),
-                news(c, [push], free, 6), news(d, [push], taken, 7),
-                news(e, [fly], free, 8), news(f, [push], free, 9) ]),
-    fake_neighbours([b, c, d, e]),
-    fake_agent:next_place(Host).
-test(no_free_neighbour_is_known, Host == next) :-
-    allocator([setting(sharing, own), news(f, [push], free, 9)]),
-    fake_neighbours([b, c]),
-    fake_agent:next_place(Host).
-test(reservations_and_releases_are_shared) :-
-    allocator([setting(sharing, own)]),
-    answers(1, bid(3)),
-    answers(1, reserved),
-    fake_agent:negotiate,
-    fake_agent:news(here, [push], taken, _),
-    fake_at(9),
-    fake_agent:deallocate([reserved]),
-    fake_agent:news(here, [push], free, 9).
-test(executing_robots_are_not_released) :-
-    allocator([ held(b, q, x, 1, started), setting(backoff, constant) ]),
-    fake_agent:back_off,
-    fake_agent:held(b, q, x, 1, started),
-    fake_agent:trail([here, b, a]).
-test(child_returns, Acts-Dies ==
-                    [ move(b), send(q, release(x)),
-                      move(a), send(p, release(y)),
-                      log(communications(child, 2)) ]-true) :-
-    allocator([ held(a, p, y, 2, reserved), held(b, q, x, 1, reserved) ]),
-    fake_clone(clone(me)),
-    fake_neighbours([b, a, c]),
-    catch(fake_agent:deallocate([reserved]), disposed, Dies = true),
-    did(Acts).
-test(child_skips_a_host_that_refuses_it) :-
-    allocator([ held(a, p, y, 2, reserved), held(b, q, x, 1, reserved) ]),
-    fake_clone(clone(me)),
-    fake_neighbours([b, a, c]),
-    fake_refusal(b),
-    fake_refusal(next),
-    catch(fake_agent:deallocate([reserved]), disposed, true),
-    did(Acts),
-    Acts = [ move(a), send(p, release(y)), log(not_reached([b])) | Sums ],
-    memberchk(log(communications(child, 1)), Sums),
-    memberchk(log(communications(refusal, Count)), Sums),
-    Count > 200.
-test(no_capacity_for_a_child) :-
-    allocator([ held(a, p, y, 2, reserved), held(b, q, x, 1, reserved) ]),
-    fake_clone(error(move_refused(here, capacity), _)),
-    fake_agent:deallocate([reserved]),
-    did(Acts),
-    msort(Acts, [send(p, release(y)), send(q, release(x))]),
-    fake_agent:sent(message, 3).
-test(shares, Shares == [[a, b, c], [d, e]]) :-
-    allocator([]),
-    fake_agent:shares(2, [a, b, c, d, e], Shares).
-test(no_more_shares_than_robots, Shares == [[a], [b]]) :-
-    allocator([]),
-    fake_agent:shares(5, [a, b], Shares).
-test(robot_asks_whether_it_is_needed) :-
-    allocator([held(a, p, y, 2, reserved)]),
-    fake_mail(p-still(y)),
-    fake_mail(q-still(x)),
-    fake_agent:attend,
-    did([send(p, yes(y)), send(q, no(x))]),
-    fake_agent:sent(message, 4).        % two links, there and back
-test(lost_robot) :-
-    allocator([held(a, p, y, 2, reserved)]),
-    fake_mail(p-lost(z, preempted)),
-    fake_mail(p-lost(y, preempted)),
-    fake_agent:attend,
-    did([log(lost(a, preempted))]),
-    \+ fake_agent:held(_, _, _, _, _).
-test(task_of_a_lost_robot_stays_done) :-
-    allocator([held(a, p, y, 2, done)]),
-    fake_mail(p-lost(y, lapsed)),
-    fake_agent:attend,
-    \+ fake_agent:held(_, _, _, _, _),
-    fake_agent:achieved(2).
-test(deadline_counts_from_the_start, Until == 27) :-
-    allocator([]),
-    retractall(fake_agent:task(_, _, _)),
-    assertz(fake_agent:task(t, [1-[push]], [deadline(20)])),
-    fake_at(7),
-    fake_agent:prepare,
-    fake_agent:until(Until).
-test(deadline, throws(missed)) :-
-    allocator([]),
-    retractall(fake_agent:until(_)),
-    assertz(fake_agent:until(30)),
-    fake_at(30),
-    fake_agent:attend.
-test(back_off_ends_at_the_deadline, Time == 30) :-
-    allocator([]),
-    retractall(fake_agent:until(_)),
-    assertz(fake_agent:until(30)),
-    catch(fake_agent:rest(100), missed, true),
-    fake_host:time(Time).
-test(executes, Outcome == done) :-
-    allocator([ held(a, p, y, 1, reserved), held(b, q, x, 2, reserved),
-                achieved(1) ]),
-    forall(member(From-What, [ p-answer(y, started), q-done(x), p-done(y) ]),
-           fake_mail(From-What)),
-    fake_agent:execute(Outcome),
-    did([send(p, start(y, sleep(4))), send(q, start(x, sleep(4)))]).
-test(refused_robot_is_missing, Outcome == missing) :-
-    allocator([ held(a, p, y, 1, reserved), held(b, q, x, 2, reserved),
-                achieved(1) ]),
-    fake_mail(p-answer(y, refused(none))),
-    fake_agent:execute(Outcome),
-    fake_agent:held(b, q, x, 2, started).
-test(silent_robot_is_removed, Outcome-Time == missing-20) :-
-    allocator([ held(a, p, y, 1, reserved), held(b, q, x, 2, done),
-                achieved(1) ]),
-    fake_agent:execute(Outcome),
-    fake_host:time(Time),
-    did_just([ send(p, start(y, sleep(4))), send(p, status(y)),
-               log(lost(a, silent)), send(p, release(y)) ]).
-test(answering_robot_is_kept, Outcome == done) :-
-    allocator([ held(a, p, y, 1, started), held(b, q, x, 2, done),
-                achieved(1) ]),
-    fake_agent:inquire([], Asked),
-    Asked == [p],
-    fake_mail(p-answer(y, status(done))),
-    fake_agent:monitor(Asked, 10, Outcome).
+test(allocator_negotiates, [ forall(negotiation(_, Facts, Answers, Checks)),
+                             Wrong == [] ]) :-
+    allocator(Facts),
+    findall(fake_mail(r-answer(Ref, What)),
+            ( member(Team-What, Answers), ref(Team, Ref) ), Before),
+    fake_run(Before, negotiate, Checks, Wrong).
+test(allocator_acts, [ forall(acts(_, Facts, Before, Goal, Checks)),
+                       Wrong == [] ]) :-
+    allocator(Facts),
+    fake_run(Before, Goal, Checks, Wrong).
 
 :- end_tests(allocation_allocator).
