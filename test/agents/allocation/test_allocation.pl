@@ -483,7 +483,7 @@ acts(child_returns, Held, [fake_clone(clone(me)), fake_neighbours([b, a, c])],
 acts(child_skips_a_host_that_refuses_it, Held,
      [ fake_clone(clone(me)), fake_neighbours([b, a, c]), fake_refusal(b),
        fake_refusal(next) ], deallocate([reserved]),
-     [ end=disposed,
+     [ end=disposed, time=300,          % its life
        did=[move(a), send(p, release(y)), log(not_reached([b]))|_],
        fake_host:did(log(communications(child, 1))),
        ( fake_host:did(log(communications(refusal, Count))), Count > 200 ) ]) :-
