@@ -3,8 +3,9 @@
 :- use_module('../../lib/fake_agent').
 :- use_module(library(plunit)).
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(apply), [include/3, maplist/3]).
-:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(apply), [foldl/4, maplist/2, maplist/3]).
+:- use_module(library(lists),
+              [append/2, append/3, member/2, memberchk/2, reverse/2]).
 :- use_module(library(readutil), [read_file_to_terms/3]).
 :- use_module(library(typhon)).
 :- include('../../../agents/learning/resources').
@@ -15,41 +16,31 @@ See test_learning_maze.pl for the problem and the algorithm of the thesis,
 test_learning_network.pl for agents that meet.
 */
 
-close_to(X, Y) :-
-    abs(X - Y) < 1.0e-6.
-
                 /*******************************
                 *           EQUATIONS          *
                 *******************************/
 
-:- begin_tests(learning_equations).
+%   equation(Name, Goal, Value, Expected): Value is of Goal.
 
-test(equation_4_1, Pi =:= 6.5) :-
-    bag_weight([a-1, b-2.5, c-3], Pi).
-test(weight_of_an_empty_bag, Pi =:= 0) :-
-    bag_weight([], Pi).
-test(equation_4_2, true(close_to(Rho, 1.353352832))) :-
-    migration_penalty(10, 2, 10, Rho).
-test(a_hop_with_an_empty_bag, true(close_to(Rho, 9.0))) :-
-    migration_penalty(10, 0, 10, Rho).
-test(bag_without_profit_equals_an_empty_one, true(close_to(Rho, 4.5))) :-
-    migration_penalty(5, -3, 10, Rho).
-test(heavy_bag_takes_all_potential, Rho =:= 0) :-
-    migration_penalty(10, 5000, 10, Rho).
-test(hops_of_an_empty_bag, Hops == 22) :-
-    hops(10, 0, Hops).
-test(equation_4_3_and_4_4, true(close_to(Rho, 4.5))) :-
-    migration_reward(2, 4, 6, 0.5, 10, Rho).
-test(potential_never_exceeds_the_maximum, Rho =:= 10) :-
-    migration_reward(9, 4, 6, 0.5, 10, Rho).
-test(first_gain_doubles, true(close_to(Rho, 3.5))) :-
-    migration_reward(1.5, 0, 0.01, 0.2, 10, Rho).
-test(initial_potential, Xi =:= 10) :-
-    initial_potential(2, 3, 2, Xi).
-test(equation_4_5, Xi =:= 2.5) :-
-    action_cost(4, 1.5, Xi).
-test(equation_4_6, Xi =:= 4.5) :-
-    action_reward(4, 0.5, Xi).
+equation(equation_4_1, bag_weight([a-1, b-2.5, c-3], Pi), Pi, 6.5).
+equation(weight_of_an_empty_bag, bag_weight([], Pi), Pi, 0).
+equation(equation_4_2, migration_penalty(10, 2, 10, Rho), Rho, Is) :-
+    Is is 10*exp(-2).
+equation(a_hop_with_an_empty_bag, migration_penalty(10, 0, 10, Rho), Rho, 9.0).
+equation(bag_without_profit_equals_an_empty_one,
+         migration_penalty(5, -3, 10, Rho), Rho, 4.5).
+equation(heavy_bag_takes_all_potential,
+         migration_penalty(10, 5000, 10, Rho), Rho, 0).
+equation(hops_of_an_empty_bag, hops(10, 0, Hops), Hops, 22).
+equation(equation_4_3_and_4_4, migration_reward(2, 4, 6, 0.5, 10, Rho), Rho,
+         4.5).
+equation(potential_never_exceeds_the_maximum,
+         migration_reward(9, 4, 6, 0.5, 10, Rho), Rho, 10).
+equation(first_gain_doubles, migration_reward(1.5, 0, 0.01, 0.2, 10, Rho), Rho,
+         3.5).
+equation(initial_potential, initial_potential(2, 3, 2, Xi), Xi, 10).
+equation(equation_4_5, action_cost(4, 1.5, Xi), Xi, 2.5).
+equation(equation_4_6, action_reward(4, 0.5, Xi), Xi, 4.5).
 
 hops(Rho, Hops, Hops) :-
     Rho < 1,
@@ -58,6 +49,12 @@ hops(Rho0, Hops0, Hops) :-
     migration_penalty(Rho0, 0, 10, Rho),
     Hops1 is Hops0 + 1,
     hops(Rho, Hops1, Hops).
+
+:- begin_tests(learning_equations).
+
+test(equation, [ forall(equation(_, Goal, Value, Expected)),
+                 true(alike(Expected, Value)) ]) :-
+    call(Goal).
 
 :- end_tests(learning_equations).
 
@@ -76,199 +73,155 @@ algorithm([ ( plan(begin, Units, Plan) :-
 learner(Settings, Tuples) :-
     algorithm(Clauses),
     findall(setting(Name, Value), member(Name-Value, Settings), Facts0),
-    append(Facts0, Clauses, Facts),
+    append([ Facts0, Clauses, [(acts(Acts) :- test_learning:acts(Acts))] ],
+           Facts),
     fake_agent('agents/learning/learner.pl', Facts, [trainer(t)|Tuples]).
 
-%   feeds_back(+Units, +Outcome): the feedback to the next plan, whatever the
-%   plan is.
+%   expected(+Replies): the trainer t answers plans, whatever they are, with
+%   feedback(Units, Outcome) in turn; other agents o, Other, answer requests for
+%   units with o-shared(Units, Solution), or as in fake_reply/2.
 
-feeds_back(Units, Outcome) :-
-    fake_reply(t-execute(_, _), t-feedback(begin, Units, Outcome)).
+expected(Replies) :-
+    forall(member(Reply, Replies),
+           ( reply(Reply, To, From), fake_reply(To, From) )).
 
-shares(Other, Units, Solution) :-
-    fake_reply(Other-share(_), Other-shared(units(Units, Solution))).
-
-lives :-
-    once(fake_agent:main).
+reply(feedback(Units, Outcome), t-execute(_, _),
+      t-feedback(begin, Units, Outcome)).
+reply(shared(Other, Units, Solution), Other-share(_),
+      Other-shared(units(Units, Solution))).
+reply(To>From, To, From).
 
 %   acts(-Acts): the acts of the agent; consecutive moves are moves(Count).
 
 acts(Acts) :-
     did(Acts0),
-    together(Acts0, Acts).
+    foldl(together, Acts0, [], Acts3),
+    reverse(Acts3, Acts).
 
-together([], []).
-together([move(_)|Acts0], [moves(Count)|Acts]) :-
+together(move(_), [moves(N0)|Acts], [moves(N)|Acts]) :-
     !,
-    moves(Acts0, 1, Count, Acts1),
-    together(Acts1, Acts).
-together([Act|Acts0], [Act|Acts]) :-
-    together(Acts0, Acts).
+    N is N0 + 1.
+together(move(_), Acts, [moves(1)|Acts]) :-
+    !.
+together(Act, Acts, [Act|Acts]).
 
-moves([move(_)|Acts0], Count0, Count, Acts) :-
-    !,
-    Count1 is Count0 + 1,
-    moves(Acts0, Count1, Count, Acts).
-moves(Acts, Count, Count, Acts).
+%   lives(Name, Settings, Tuples, Replies, Mail, Checks): a whole life, see
+%   expected/1, acts/1 and fake_run/4.
 
-:- begin_tests(learner).
-
-test(algorithm_1,
-     Acts == [ send(t, execute([], 3)),
+lives(algorithm_1, [], [],
+      [feedback([a-1], unreached), feedback([b-1, a-1], reached([a]))], [],
+      [ acts=[ send(t, execute([], 3)),
                log(executed(1, 0, 1, unreached)), moves(22),
                send(t, execute([a], 4)),
                log(executed(2, 1, 2, reached)), log(reached(1)), moves(22),
-               log(converged(2, 3, [a])) ]) :-
-    learner([], []),
-    feeds_back([a-1], unreached),
-    feeds_back([b-1, a-1], reached([a])),
-    lives,
-    acts(Acts).
-test(potential_is_computed_from_the_plan,
-     [Xi1, Xi2] == [10, 14]) :-         % k_d * (length + search)
-    learner([k_d-2, search-5], []),
-    feeds_back([a-1, b-1], unreached),
-    feeds_back([], reached([a])),
-    lives,
-    did(Acts),
-    findall(Xi, member(send(t, execute(_, Xi)), Acts), [Xi1, Xi2]).
-test(waits_for_the_start_order, Acts == []) :-
-    learner([start-order], []),
-    \+ fake_agent:main,
-    acts(Acts).
-test(starts_on_the_order, First == send(t, execute([], 3))) :-
-    learner([start-order], []),
-    fake_mail(user-begin),
-    feeds_back([], reached([])),
-    lives,
-    acts([First|_]).
-test(units_of_others_are_collected,
-     Acts == [ send(t, execute([], 3)),
+               log(converged(2, 3, [a])) ] ]).
+lives(potential_is_computed_from_the_plan, [k_d-2, search-5], [],
+      [feedback([a-1, b-1], unreached), feedback([], reached([a]))], [],
+      [ ( findall(Xi, fake_host:did(send(t, execute(_, Xi))), Xis),
+          Xis == [10, 14] ) ]).         % k_d * (length + search)
+lives(waits_for_the_start_order, [start-order], [], [], [],
+      [end=fail, acts=[]]).
+lives(starts_on_the_order, [start-order], [], [feedback([], reached([]))],
+      [user-begin], [acts=[send(t, execute([], 3))|_]]).
+lives(units_of_others_are_collected, [], [queued(o)],
+      [ feedback([a-1], unreached), feedback([a-1], reached([a,b])),
+        shared(o, [a-1, b-2], none) ], [],
+      [ acts=[ send(t, execute([], 3)), % 10, 9, + 5 = 10, 1.35, 0.18
                log(executed(1, 0, 1, unreached)), moves(1),
                send(o, share(next)), log(shared(o, 1)), moves(1),
                send(o, share(next)), moves(1),
                send(t, execute([a,b], 5)),
                log(executed(2, 2, 1, reached)), log(reached(2)), moves(22),
-               log(converged(2, 3, [a,b])) ]) :-
-    learner([], [queued(o)]),
-    feeds_back([a-1], unreached),
-    feeds_back([a-1], reached([a,b])),
-    shares(o, [a-1, b-2], none),        % 10, 9, + 5 = 10, 1.35, 0.18
-    lives,
-    acts(Acts).
-test(bag_is_emptied_and_not_shared,
-     Own-Bag == [a-1]-[]) :-
-    learner([], [queued(o)]),
-    feeds_back([a-1], unreached),
-    feeds_back([a-1], reached([a,b])),
-    shares(o, [a-1, b-2], none),
-    lives,
-    fake_agent:shareable(Own),
-    fake_agent:bag(Bag).
+               log(converged(2, 3, [a,b])) ],
+        shareable=[a-1], bag=[] ]).     % emptied, and not shared
+lives(gain_continues_the_search, [], [queued(o)], % 10, 9, + 5 = 10, 3.68,
+      [ feedback([], unreached), feedback([], reached([x])), % + 5 = 8.68, 1.17,
+        shared(o, [a-1], none), shared(o, [a-1, b-1], none) ], [], % 0.16
+      [ ( findall(A, fake_host:did(A), Acts),
+          once(append(Collecting, [send(t, execute([a,b], _))|_], Acts)),
+          aggregate_all(count, member(move(_), Collecting), Count),
+          Count == 4 ) ]).
+lives(first_agent_with_new_units_is_taken, [],
+      [queued(o1), queued(o2), queued(o3)],
+      [ feedback([a-1], unreached), shared(o1, [a-1], none),
+        shared(o2, [a-1, b-5000], none), feedback([], reached([x])) ], [],
+      [ ( findall(A, fake_host:did(A), Acts),
+          once(append(Before, [log(shared(_, _))|After], Acts)),
+          findall(Other, member(send(Other, share(_)), Before), [o1, o2]),
+          memberchk(log(shared(o2, 1)), Acts),
+          \+ memberchk(log(shared(_, _)), After) ) ]).
+lives(silent_agent_is_removed_from_the_queue, [], [queued(o)],
+      [feedback([], unreached), feedback([], reached([x]))], [],
+      [ tuples=[trainer(t)],
+        ( aggregate_all(count, fake_host:did(send(o, _)), Asked),
+          Asked == 1 ) ]).
+lives(answers_while_waiting, [], [],    % the second while the trainer executes
+      [ feedback([a-1], reached([a])), p-_ > x-noise,
+        q-_ > r-share(next) ],          % comes after the feedback
+      [p-share(here), q-share(there)],
+      [ ( findall(To-What, ( fake_host:did(send(To, What)),
+                             What = shared(_) ), Answers),
+          Answers == [ p-shared(units([], none)), q-shared(nothing),
+                       r-shared(units([a-1], solution([a]))) ] ) ]).
+lives(no_messages_without_sharing, [sharing-false], [queued(o)],
+      [feedback([], reached([]))], [p-noise],
+      [ ( findall(To, fake_host:did(send(To, _)), All), All == [t] ) ]).
+lives(better_solution_is_requested_and_collected_again, [], [queued(o)],
+      [ feedback([a-1, b-1], reached([a,b])), shared(o, [c-1], solution([c])),
+        feedback([], reached([c])) ], [],
+      [ acts=[ send(t, execute([], 3)), log(executed(1, 0, 2, reached)),
+               log(reached(2)), moves(1),
+               send(o, share(next)), log(shared(o, 1)), moves(1),
+               send(o, share(next)), moves(2),
+               send(t, execute([a,b,c], 6)),
+               log(executed(2, 3, 2, reached)), log(reached(1)), moves(22),
+               log(converged(2, 3, [c])) ] ]).
+lives(solution_that_is_no_better_is_ignored, [], [queued(o)],
+      [ feedback([a-1], reached([a])), shared(o, [b-1], solution([b])),
+        shared(o, [b-1], none), feedback([], reached([a])) ], [],
+      [count=1, bag=[]]).
+lives(silent_trainer, [], [], [t-execute(_, _) > x-noise,
+                               feedback([], reached([]))], [],
+      [ acts=[ send(t, execute([], 3)), log(unanswered(t)), moves(22),
+               send(t, execute([], 3)), log(executed(1, 0, 0, reached)),
+               log(reached(0)), moves(22), log(converged(1, 3, [])) ] ]).
+
+:- begin_tests(learner).
+
+test(learner_lives, [ forall(lives(_, Settings, Tuples, Replies, Mail, Checks)),
+                      Wrong == [] ]) :-
+    learner(Settings, Tuples),
+    expected(Replies),
+    maplist(fake_mail, Mail),
+    fake_run([], main, Checks, Wrong).
 test(units_of_the_bag_are_not_passed_on, Units == [a-1]) :-
     learner([], []),
     assertz(fake_agent:shareable([a-1])),
     assertz(fake_agent:bag([b-2])),
     fake_agent:respond(share(here), p),
     did([send(p, shared(units(Units, none)))]).
-test(gain_continues_the_search,         % 10, 9, + 5 = 10, 3.68, + 5 = 8.68,
-     Count == 4) :-                     % 1.17, 0.16
-    learner([], [queued(o)]),
-    feeds_back([], unreached),
-    feeds_back([], reached([x])),
-    shares(o, [a-1], none),
-    shares(o, [a-1, b-1], none),
-    lives,
-    did(Acts),
-    once(append(Collecting, [send(t, execute([a,b], _))|_], Acts)),
-    aggregate_all(count, member(move(_), Collecting), Count).
-test(first_agent_with_new_units_is_taken,
-     Asked-Shared == [o1, o2]-[o2-1]) :-
-    learner([], [queued(o1), queued(o2), queued(o3)]),
-    feeds_back([a-1], unreached),
-    shares(o1, [a-1], none),
-    shares(o2, [a-1, b-5000], none),
-    feeds_back([], reached([x])),
-    lives,
-    did(Acts0),
-    findall(Other-Count, member(log(shared(Other, Count)), Acts0), Shared),
-    once(append(Before, [log(shared(_, _))|_], Acts0)),
-    findall(Other, member(send(Other, share(_)), Before), Asked).
 test(all_new_units_are_taken, Shared-Bag == 2-[b-2, c-3]) :-
     learner([], []),
     assertz(fake_agent:shareable([a-1])),
     assertz(fake_agent:bag([])),
-    shares(o, [a-1, b-2, c-3], none),
+    expected([shared(o, [a-1, b-2, c-3], none)]),
     once(fake_agent:ask([o], anything, _)),
     did(Acts),
     memberchk(log(shared(o, Shared)), Acts),
     fake_agent:bag(Bag).
-test(silent_agent_is_removed_from_the_queue,
-     Asked-Tuples == 1-[trainer(t)]) :-
-    learner([], [queued(o)]),
-    feeds_back([], unreached),
-    feeds_back([], reached([x])),
-    lives,
-    did(Acts),
-    aggregate_all(count, member(send(o, _), Acts), Asked),
-    tuples(Tuples).
 test(agent_of_a_dead_process_is_removed_from_the_queue,
      Tuples == [trainer(t)]) :-
     learner([], [queued(o)]),
-    feeds_back([], unreached),
-    feeds_back([], reached([x])),
+    expected([feedback([], unreached), feedback([], reached([x]))]),
     fake_dead(o),
-    lives,
+    once(fake_agent:main),
     tuples(Tuples).
 test(no_answer_to_an_agent_of_a_dead_process) :-
     learner([], []),
-    feeds_back([], reached([])),
+    expected([feedback([], reached([]))]),
     fake_dead(p),
     fake_mail(p-share(here)),
-    lives.
-test(answers_while_waiting,
-     Answers == [ p-shared(units([], none)), q-shared(nothing),
-                  r-shared(units([a-1], solution([a]))) ]) :-
-    learner([], []),
-    fake_mail(p-share(here)),           % while the trainer executes
-    fake_mail(q-share(there)),
-    feeds_back([a-1], reached([a])),
-    fake_reply(p-_, x-noise),
-    fake_reply(q-_, r-share(next)),     % comes after the feedback
-    lives,
-    did(Acts),
-    findall(To-What, ( member(send(To, What), Acts), What = shared(_) ),
-            Answers).
-test(no_messages_without_sharing, Acts == [send(t, execute([], 3))]) :-
-    learner([sharing-false], [queued(o)]),
-    feeds_back([], reached([])),
-    fake_mail(p-noise),
-    lives,
-    did(Acts0),
-    include(sends, Acts0, Acts).
-test(better_solution_is_requested_and_collected_again,
-     Acts == [ send(t, execute([], 3)), log(executed(1, 0, 2, reached)),
-               log(reached(2)), moves(1),
-               send(o, share(next)), log(shared(o, 1)), moves(1),
-               send(o, share(next)), moves(2),
-               send(t, execute([a,b,c], 6)),
-               log(executed(2, 3, 2, reached)), log(reached(1)), moves(22),
-               log(converged(2, 3, [c])) ]) :-
-    learner([], [queued(o)]),
-    feeds_back([a-1, b-1], reached([a,b])),
-    shares(o, [c-1], solution([c])),
-    feeds_back([], reached([c])),
-    lives,
-    acts(Acts).
-test(solution_that_is_no_better_is_ignored, Executions-Bag == 1-[]) :-
-    learner([], [queued(o)]),
-    feeds_back([a-1], reached([a])),
-    shares(o, [b-1], solution([b])),
-    shares(o, [b-1], none),
-    feeds_back([], reached([a])),       % is not asked for
-    lives,
-    fake_agent:count(Executions),
-    fake_agent:bag(Bag).
+    once(fake_agent:main).
 test(missed_goal_is_no_solution, fail) :-
     learner([], []),
     retractall(fake_agent:collector),
@@ -276,43 +229,31 @@ test(missed_goal_is_no_solution, fail) :-
     assertz(fake_agent:solution([a])),
     fake_agent:after(unreached),
     fake_agent:solution(_).
-test(silent_trainer,
-     Acts == [ send(t, execute([], 3)), log(unanswered(t)), moves(22),
-               send(t, execute([], 3)), log(executed(1, 0, 0, reached)),
-               log(reached(0)), moves(22), log(converged(1, 3, [])) ]) :-
-    learner([], []),
-    fake_reply(t-execute(_, _), x-noise),
-    feeds_back([], reached([])),
-    lives,
-    acts(Acts).
 test(learner_without_an_algorithm_waits, Lingered == 3) :-
     learner([], []),
     abolish(fake_agent:plan/3),
-    feeds_back([a-1], unreached),
-    feeds_back([], reached([a])),
+    expected([feedback([a-1], unreached), feedback([], reached([a]))]),
     retractall(fake_agent:linger),
     assertz(( fake_agent:linger :- fake_host:log(lingers),
                                    test_learning:third_time )),
-    lives,
+    once(fake_agent:main),
     did(Acts),
     aggregate_all(count, member(log(lingers), Acts), Lingered),
     memberchk(send(t, execute([a], 4)), Acts).
 test(without_an_algorithm_no_solution_is_better, Executions == 1) :-
     learner([], [queued(o)]),
     abolish(fake_agent:better/2),
-    feeds_back([a-1, b-1], reached([a,b])),
-    shares(o, [c-1], solution([c])),
-    lives,
+    expected([ feedback([a-1, b-1], reached([a,b])),
+               shared(o, [c-1], solution([c])) ]),
+    once(fake_agent:main),
     fake_agent:count(Executions).
 test(error_of_the_algorithm_ends_the_wait,
      error(existence_error(procedure, _))) :-
     learner([], []),
-    feeds_back([a-1], unreached),
+    expected([feedback([a-1], unreached)]),
     retractall(fake_agent:plan(_, _, _)),
     assertz(( fake_agent:plan(_, _, _) :- no_such_thing )),
-    lives.
-
-sends(send(_, _)).
+    once(fake_agent:main).
 
 :- end_tests(learner).
 

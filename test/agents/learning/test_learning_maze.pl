@@ -58,6 +58,22 @@ steps([Action|Actions], State0, [step(Vector0, Action, Vector, W)|Steps]) :-
     weight(Vector0, Vector, W),
     steps(Actions, State, Steps).
 
+%   shared(Name, Walk, From, Actions): the actions of the units of Walk.
+
+shared(only_gains, [forward, backward, forward], at(5, 0, up),
+       [[forward], [forward]]).
+shared(consecutive_turns_are_merged, Walk, at(3, 1, left), [Shared]) :-
+    member(Walk-Shared,
+           [ [turn_left,turn_left,turn_left,forward]-[turn_right,forward],
+             [turn_left,turn_left,backward]-[turn_back,backward],
+             [turn_back,turn_left,turn_left,forward]-[forward] ]).
+shared(turns_before_a_loss_are_forgotten, [turn_right, forward, backward],
+       at(3, 2, up), [[backward]]).
+shared(turns_before_a_bump_are_forgotten, [turn_left, backward, forward],
+       at(5, 2, up), [[forward]]).
+shared(turning_away_from_a_wall_is_a_gain, [turn_left], at(5, 0, right),
+       [[turn_left]]).
+
 :- begin_tests(maze, [setup(maze([])), cleanup(maze([]))]).
 
 test(start, State == at(5, 0, up)) :-
@@ -125,7 +141,13 @@ test(dark_before_an_obstacle,
     L4 is round(L3*1.0e7)/1.0e7,
     Seen = [L1-O1, L2-O2, L4].
 test(cells_differ, Count == 144) :-     % 36 cells, 4 headings
-    every_vector(Count).
+    findall(V,
+            ( between(0, 5, X), between(0, 5, Y),
+              member(Heading, [up, left, down, right]),
+              sensed(at(X, Y, Heading), V) ),
+            Vectors),
+    sort(Vectors, Set),
+    length(Set, Count).
 test(cells_of_equal_light_need_a_signature,
      [ setup(maze([signature-false])), cleanup(maze([])) ]) :-
     sensed(at(1, 2, up), sv(Light, 0, up, 0)),
@@ -135,9 +157,10 @@ test(equation_4_7,                      % of the light
     sensed(at(0, 2, up), Vector0),
     sensed(at(0, 4, right), Vector),
     weight(Vector0, Vector, Weight).
-test(only_gains_are_shared, Actions == [[forward], [forward]]) :-
-    units([forward, backward, forward], at(5, 0, up), Units),
-    unit_actions(Units, Actions).
+test(units_of_a_walk_are_shared, [forall(shared(_, Walk, From, Expected)),
+                                  Actions == Expected]) :-
+    units(Walk, From, Units),
+    findall(A, member(unit(_, A, _)-_, Units), Actions).
 test(content_of_shared_units, Unit-Weight == unit(V0, [forward], V)-W) :-
     units([forward], at(5, 0, up), [Unit-Weight]),
     sensed(at(5, 0, up), V0),
@@ -148,24 +171,6 @@ test(turns_are_shared_with_the_next_move,
     units([turn_left, forward], at(5, 0, up), [Unit-_]),
     sensed(at(5, 0, up), V0),
     sensed(at(4, 0, left), V).
-test(consecutive_turns_are_merged,
-     [ forall(member(Turns-Told,
-                     [ [turn_left,turn_left,turn_left,forward]-
-                           [turn_right,forward],
-                       [turn_left,turn_left,backward]-[turn_back,backward],
-                       [turn_back,turn_left,turn_left,forward]-[forward] ])),
-       Actions == [Told] ]) :-
-    units(Turns, at(3, 1, left), Units),
-    unit_actions(Units, Actions).
-test(turns_before_a_loss_are_forgotten, Actions == [[backward]]) :-
-    units([turn_right, forward, backward], at(3, 2, up), Units),
-    unit_actions(Units, Actions).
-test(turns_before_a_bump_are_forgotten, Actions == [[forward]]) :-
-    units([turn_left, backward, forward], at(5, 2, up), Units),
-    unit_actions(Units, Actions).
-test(turning_away_from_a_wall_is_a_gain, Actions == [[turn_left]]) :-
-    units([turn_left], at(5, 0, right), Units),
-    unit_actions(Units, Actions).
 test(shared_units_can_be_repeated, Bad == []) :-
     findall(Unit,
             ( between(1, 200, _),
@@ -174,22 +179,6 @@ test(shared_units_can_be_repeated, Bad == []) :-
               member(Unit-_, Units),
               \+ repeats(Unit) ),
             Bad).
-
-every_vector(Count) :-
-    aggregate_all(count,
-                  distinct_vector(_), Count).
-
-distinct_vector(Vector) :-
-    findall(V,
-            ( between(0, 5, X), between(0, 5, Y),
-              member(Heading, [up, left, down, right]),
-              sensed(at(X, Y, Heading), V) ),
-            Vectors),
-    sort(Vectors, Set),
-    member(Vector, Set).
-
-unit_actions(Units, Actions) :-
-    findall(A, member(unit(_, A, _)-_, Units), Actions).
 
 random_walk(Length, Walk) :-
     actions(Actions),
@@ -221,30 +210,29 @@ link(L0-Actions-L, unit(V0, Actions, V)-W) :-
     W is L - L0.
 
 plans(Links, Plan) :-
-    plans(1, Links, Plan).
-
-plans(Begin, Links, Plan) :-
-    vector(Begin, Start),
+    vector(1, Start),
     findall(Unit, ( member(Link, Links), link(Link, Unit) ), Units0),
     sort(Units0, Units),
     plan(Start, Units, Plan).
 
+%   greedy(Name, Links, Plan)
+
+greedy(one_link, [1-[a]-2], [a]).
+greedy(links_in_a_row, [3-[c]-9, 1-[a]-2, 2-[b,b]-3], [a, b, b, c]).
+greedy(the_longest_branch, [1-[x]-9, 1-[a]-2, 2-[b]-3, 3-[c]-4], [a, b, c]).
+greedy(length_is_counted_in_links, [1-[x,x,x]-9, 1-[a]-2, 2-[b]-3], [a, b]).
+greedy(heaviest_of_the_longest_branches,
+       [1-[a]-4, 4-[b]-5, 1-[c]-3, 3-[d]-6], [c, d]).
+greedy(branch_with_fewest_actions_breaks_the_tie,
+       [1-[a,a]-4, 4-[b]-6, 1-[c]-3, 3-[d]-6], [c, d]).
+greedy(branch_that_does_not_begin_at_the_start,
+       [1-[a]-2, 3-[b]-4, 4-[c]-5, 5-[d]-6], [a]).
+
 :- begin_tests(greedy).
 
-test(one_link, Plan == [a]) :-
-    plans([1-[a]-2], Plan).
-test(links_in_a_row, Plan == [a, b, b, c]) :-
-    plans([3-[c]-9, 1-[a]-2, 2-[b,b]-3], Plan).
-test(the_longest_branch, Plan == [a, b, c]) :-
-    plans([1-[x]-9, 1-[a]-2, 2-[b]-3, 3-[c]-4], Plan).
-test(length_is_counted_in_links, Plan == [a, b]) :-
-    plans([1-[x,x,x]-9, 1-[a]-2, 2-[b]-3], Plan).
-test(heaviest_of_the_longest_branches, Plan == [c, d]) :-
-    plans([1-[a]-4, 4-[b]-5, 1-[c]-3, 3-[d]-6], Plan).
-test(branch_with_fewest_actions_breaks_the_tie, Plan == [c, d]) :-
-    plans([1-[a,a]-4, 4-[b]-6, 1-[c]-3, 3-[d]-6], Plan).
-test(branch_that_does_not_begin_at_the_start, Plan == [a]) :-
-    plans([1-[a]-2, 3-[b]-4, 4-[c]-5, 5-[d]-6], Plan).
+test(plan_is_the_best_branch, [ forall(greedy(_, Links, Expected)),
+                                Plan == Expected ]) :-
+    plans(Links, Plan).
 test(without_a_branch_at_the_start_the_most_similar_is_used, Plan == [b]) :-
     sensed(at(2, 2, up), Start),
     Near = sv(L, 0, up, n),
