@@ -432,6 +432,8 @@ negotiation(already_reserved_robot_gets_no_request,
 
 %   acts(Name, Facts, Before, Goal, Checks), see fake_run/4.
 
+acts(waits_for_the_order_to_begin, [setting(start, order)], [], main,
+     [end=fail, did=[]]).
 acts(second_reward_is_less, [held(b, q, x, 1, reserved)],
      [ fake_fact(sojourn(3, 2, 1, 0)), fake_mail(r-answer(Ref, bid(3))),
        fake_mail(r-answer(Ref, reserved)) ], negotiate, [chi=Chi]) :-
