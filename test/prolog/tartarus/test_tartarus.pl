@@ -2,6 +2,7 @@
 :- use_module('../../lib/common').
 :- use_module('../../lib/fixtures').
 :- use_module('../../lib/tartarus_nodes').
+:- use_module(library(apply), [foldl/4, maplist/2, maplist/3]).
 :- use_module(library(lists)).
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
@@ -13,44 +14,66 @@ Each platform is a process; tests compare typed input and output.
 *Threading*: one test at a time.
 */
 
-line(Format, Arguments, Line) :-
-    format(string(Line), Format, Arguments).
+%   tartarus(+Programs, +Steps): platforms a, b, ..., one for each program, a
+%   list of lines, perform Steps: `Node:Text` types Text, `Node>Lines` waits
+%   until Lines are printed, `up(Node, Token)` starts the platform of Node. In
+%   all texts $1 is the port of a, $2 that of b, $3 a free one.
 
-%   A query that starts a platform, and its banner.
+tartarus(Programs0, Steps) :-
+    ports(3, Ports),
+    maplist(maplist(with_ports(Ports)), Programs0, Programs),
+    length(Programs, Count),
+    length(Nodes, Count),
+    with_nodes(Programs, Nodes,
+               forall(member(Step, Steps), step(Step, Nodes, Ports))).
 
-up(Node, Port, Token) :-
-    line("start_tartarus(localhost, ~w, ~w).", [Port, Token], Start),
-    type(Node, Start),
-    line("Port = ~w", [Port], Banner),
-    printed(Node, [Banner]).
+step(up(Name, Token), Nodes, Ports) :-
+    nth1(N, [a, b], Name),
+    format(string(Start), "start_tartarus(localhost, $~d, ~w).", [N, Token]),
+    format(string(Banner), "Port = $~d", [N]),
+    step(Name:Start, Nodes, Ports),
+    step(Name>[Banner], Nodes, Ports).
+step(Name:Text0, Nodes, Ports) :-
+    node(Name, Nodes, Node),
+    with_ports(Ports, Text0, Text),
+    type(Node, Text).
+step(Name>Lines0, Nodes, Ports) :-
+    node(Name, Nodes, Node),
+    maplist(with_ports(Ports), Lines0, Lines),
+    printed(Node, Lines, 120).
+
+node(Name, Nodes, Node) :-
+    nth1(N, [a, b], Name),
+    nth1(N, Nodes, Node).
+
+with_ports(Ports, Text0, Text) :-
+    foldl(with_port(Ports), [1, 2, 3], Text0, Text).
+
+with_port(Ports, N, Text0, Text) :-
+    nth1(N, Ports, Port),
+    format(atom(Sign), "$~d", [N]),
+    atomic_list_concat(Parts, Sign, Text0),
+    atomic_list_concat(Parts, Port, Text1),
+    atom_string(Text1, Text).
 
 :- begin_tests(third_generation).
 
 test(visitor_is_listed_on_its_platform) :-
-    ports(2, [P1,P2]),
-    line("   start_tartarus(localhost, ~w, 7),", [P1], Start),
-    line("   create_mobile_agent(bee, (localhost,~w), fly, [7]),", [P1], Create),
-    line("   move_agent(bee, (localhost,~w)).", [P2], Move),
-    with_nodes([[ ":- dynamic fly/3.",
-                  "go :- consult('platform.pl'),", Start, Create,
-                  "   writeln('off it goes'),", Move,
-                  "fly(guid, (Ip,Port), main) :-",
-                  "   writeln(guid:' has come to ':Ip:Port)." ],
-                []],
-               [A,B],
-               ( up(B, P2, 7),
-                 type(A, "go."),
-                 line("bee: has come to :localhost:~w", [P2], Come),
-                 printed(B, ["  \n", Come]),
-                 printed(A, ["off it goes"]),
-                 type(B, "list_agent."),
-                 line("Agent Name :bee, handler name:fly, residing on port:~w",
-                      [P2], Row),
-                 printed(B, ["====Agent list====", Row]),
-                 type(A, "list_agent(L), writeln(agents(L))."),
-                 printed(A, ["agents([])"]) )).
+    tartarus([[ ":- dynamic fly/3.",
+                "go :- consult('platform.pl'),",
+                "   start_tartarus(localhost, $1, 7),",
+                "   create_mobile_agent(bee, (localhost,$1), fly, [7]),",
+                "   writeln('off it goes'),",
+                "   move_agent(bee, (localhost,$2)).",
+                "fly(guid, (Ip,Port), main) :-",
+                "   writeln(guid:' has come to ':Ip:Port)." ], []],
+             [ up(b, 7), a:"go.",
+               b > ["  \n", "bee: has come to :localhost:$2"],
+               a > ["off it goes"], b:"list_agent.",
+               b > [ "====Agent list====",
+                     "Agent Name :bee, handler name:fly, residing on port:$2" ],
+               a:"list_agent(L), writeln(agents(L)).", a > ["agents([])"] ]).
 test(agent_back_before_its_move_has_returned_is_not_lost) :-
-    ports(2, [P1,P2]),
     Walker = [ ":- dynamic walker/3, left/2, next/1.",
                "walker(guid, (Ip,_), main) :-",
                "    retract(left(guid, N)),",
@@ -59,40 +82,26 @@ test(agent_back_before_its_move_has_returned_is_not_lost) :-
                "    ;   N1 is N-1, assertz(left(guid, N1)),",
                "        next(P), move_agent(guid, (Ip,P))",
                "    )." ],
-    line("next(~w).", [P2], Next1),
-    line("next(~w).", [P1], Next2),
-    line("create_mobile_agent(w, (localhost,~w), walker, [7]), assertz(left(w, 400)), add_payload(w, [(left,2)]), execute_agent(w, (localhost,~w), walker).",
-         [P1,P1], Send),
-    with_nodes([[Next1|Walker], [Next2|Walker]],
-               [A,B],
-               ( up(A, P1, 7), up(B, P2, 7),
-                 type(A, Send),
-                 printed(A, ["home"], 120) )).
+    tartarus([["next($2)."|Walker], ["next($1)."|Walker]],
+             [ up(a, 7), up(b, 7),
+               a:"create_mobile_agent(w, (localhost,$1), walker, [7]), \c
+                  assertz(left(w, 400)), add_payload(w, [(left,2)]), \c
+                  execute_agent(w, (localhost,$1), walker).", a > ["home"] ]).
 test(payload_travels_and_its_template_stays) :-
-    ports(2, [P1,P2]),
-    with_nodes([[ ":- dynamic carry/3, load/2.",
-                  "load(guid, 150).",
-                  "carry(guid, _, main) :- load(guid, N),",
-                  "    writeln('it weighs ':N)." ],
-                []],
-               [A,B],
-               ( up(A, P1, 1), up(B, P2, 1),
-                 line("create_mobile_agent(ant, (localhost,~w), carry, [1]), \c
-                       add_payload(ant, [(load,2)]), \c
-                       move_agent(ant, (localhost,~w)).", [P1,P2], Go),
-                 type(A, Go),
-                 printed(B, ["it weighs :150"]),
-                 type(B, "findall(X-N, load(X,N), L), writeln(loads(L))."),
-                 printed(B, ["loads([ant-150])"]),
-                 type(A, "findall(X-N, load(X,N), L), writeln(loads(L))."),
-                 printed(A, ["loads([guid-150])"]) )).
+    tartarus([[ ":- dynamic carry/3, load/2.", "load(guid, 150).",
+                "carry(guid, _, main) :- load(guid, N),",
+                "    writeln('it weighs ':N)." ], []],
+             [ up(a, 1), up(b, 1),
+               a:"create_mobile_agent(ant, (localhost,$1), carry, [1]), \c
+                  add_payload(ant, [(load,2)]), \c
+                  move_agent(ant, (localhost,$2)).", b > ["it weighs :150"],
+               b:"findall(X-N, load(X,N), L), writeln(loads(L)).",
+               b > ["loads([ant-150])"],
+               a:"findall(X-N, load(X,N), L), writeln(loads(L)).",
+               a > ["loads([guid-150])"] ]).
 test(agent_returns_and_its_clone_prints) :-
-    ports(2, [P1,P2]),
-    line("next(~w, ~w).", [P1,P2], N1),
-    line("next(~w, ~w).", [P2,P1], N2),
     Program = [ ":- dynamic thanos_task/3, energy/2.",
-                N1, N2,
-                "energy(guid, 2).",
+                "next($1, $2).", "next($2, $1).", "energy(guid, 2).",
                 "thanos_task(guid, (Ip,Port), main) :-",
                 "   energy(guid, E), writeln(guid:at(Port):energy(E)),",
                 "   next(Port, Other),",
@@ -105,85 +114,59 @@ test(agent_returns_and_its_clone_prints) :-
                 "      clone_agent(guid, (Ip,Other), C), writeln(clone:C)",
                 "   ;  true",
                 "   )." ],
-    with_nodes([Program,Program], [A,B],
-               ( up(A, P1, 1), up(B, P2, 1),
-                 line("create_mobile_agent(thanos, (localhost,~w), \c
-                       thanos_task, [1]), \c
-                       add_payload(thanos, [(energy,2)]), \c
-                       execute_agent(thanos, (localhost,~w), thanos_task).",
-                      [P1,P1], Go),
-                 type(A, Go),
-                 line("thanos:at(~w):energy(2)", [P1], L1),
-                 line("thanos:at(~w):energy(1)", [P2], L2),
-                 line("thanos:at(~w):energy(0)", [P1], L3),
-                 line("thanos1:at(~w):energy(-1)", [P2], L4),
-                 printed(A, [L1,L3,"clone:thanos1"]),
-                 printed(B, [L2,L4]),
-                 type(B, "isexist_agent(N, L, H), writeln(N/L/H)."),
-                 line("thanos1/(localhost,~w)/thanos_task", [P2], L5),
-                 printed(B, [L5]) )).
+    tartarus([Program, Program],
+             [ up(a, 1), up(b, 1),
+               a:"create_mobile_agent(thanos, (localhost,$1), thanos_task, \c
+                  [1]), add_payload(thanos, [(energy,2)]), \c
+                  execute_agent(thanos, (localhost,$1), thanos_task).",
+               a > [ "thanos:at($1):energy(2)", "thanos:at($1):energy(0)",
+                     "clone:thanos1" ],
+               b > ["thanos:at($2):energy(1)", "thanos1:at($2):energy(-1)"],
+               b:"isexist_agent(N, L, H), writeln(N/L/H).",
+               b > ["thanos1/(localhost,$2)/thanos_task"] ]).
 test(agent_without_token_is_refused_and_stays) :-
-    ports(2, [P1,P2]),
-    with_nodes([[ ":- dynamic h/3.", "h(guid, _, main) :- writeln(here(guid))."],
-                []],
-               [A,B],
-               ( up(A, P1, 1), up(B, P2, 2),
-                 line("create_mobile_agent(fly, (localhost,~w), h, [1]), \c
-                       move_agent(fly, (localhost,~w)), writeln(told).",
-                      [P1,P2], Go),
-                 type(A, Go),
-                 printed(A, ["--------negative ACK received-----------",
-                             "Agent fly was not allowed to enter the destination.",
-                             "--------negative ack processed-----------",
-                             "told"]),
-                 type(B, "set_token(1), writeln(trusted)."),
-                 printed(B, ["trusted"]),
-                 line("move_agent(fly, (localhost,~w)).", [P2], Again),
-                 type(A, Again),
-                 printed(B, ["here(fly)"]) )).
+    tartarus([[":- dynamic h/3.", "h(guid, _, main) :- writeln(here(guid))."],
+              []],
+             [ up(a, 1), up(b, 2),
+               a:"create_mobile_agent(fly, (localhost,$1), h, [1]), \c
+                  move_agent(fly, (localhost,$2)), writeln(told).",
+               a > [ "--------negative ACK received-----------",
+                     "Agent fly was not allowed to enter the destination.",
+                     "--------negative ack processed-----------", "told" ],
+               b:"set_token(1), writeln(trusted).", b > ["trusted"],
+               a:"move_agent(fly, (localhost,$2)).", b > ["here(fly)"] ]).
 test(move_to_a_dead_or_the_same_platform) :-
-    ports(2, [P1,P2]),
-    with_nodes([[":- dynamic h/3.", "h(guid, _, main)."]], [A],
-               ( up(A, P1, 1),
-                 line("create_mobile_agent(fly, (localhost,~w), h, [1]), \c
-                       move_agent(fly, (localhost,~w)), \c
-                       isexist_agent(fly, _, H), writeln(still(H)).",
-                      [P1,P2], Go),
-                 type(A, Go),
-                 printed(A, ["Enter a valid IP address and Port number.",
-                             "still(h)"]),
-                 line("move_agent(fly, ('127.0.0.1',~w)).", [P1], Same),
-                 type(A, Same),
-                 printed(A, ["Agent is already on same platform."]),
-                 type(A, "move_agent(missing, (localhost,1)), writeln(true1)."),
-                 printed(A, ["Move agent Failed for :missing", "true1"]) )).
+    tartarus([[":- dynamic h/3.", "h(guid, _, main)."]],
+             [ up(a, 1),
+               a:"create_mobile_agent(fly, (localhost,$1), h, [1]), \c
+                  move_agent(fly, (localhost,$2)), \c
+                  isexist_agent(fly, _, H), writeln(still(H)).",
+               a > ["Enter a valid IP address and Port number.", "still(h)"],
+               a:"move_agent(fly, ('127.0.0.1',$1)).",
+               a > ["Agent is already on same platform."],
+               a:"move_agent(missing, (localhost,1)), writeln(true1).",
+               a > ["Move agent Failed for :missing", "true1"] ]).
 test(goals_after_a_move_run_at_the_source) :-
-    ports(2, [P1,P2]),
-    line("h(guid, (_,~w), main) :- !,", [P1], L1),
-    line("   move_agent(guid, (localhost,~w)), left(guid, X),", [P2], L2),
-    with_nodes([[ ":- dynamic h/3, left/2.", "left(guid, old).",
-                  L1, L2, "   writeln(here_still(X)).",
-                  "h(guid, _, main) :- writeln(there(guid))." ], []],
-               [A,B],
-               ( up(A, P1, 1), up(B, P2, 1),
-                 line("create_mobile_agent(a, (localhost,~w), h, [1]), \c
-                       add_payload(a, [(left,2)]), \c
-                       execute_agent(a, (localhost,~w), h).", [P1,P1], Go),
-                 type(A, Go),
-                 printed(B, ["there(a)"]),
-                 printed(A, ["here_still(old)"]),
-                 type(A, "between(1, 2000, _), findall(X, left(X,_), L), \c
-                          ( L == [guid] -> true ; sleep(0.01), fail ), !, \c
-                          writeln(left(L))."),
-                 printed(A, ["left([guid])"]) )).
+    tartarus([[ ":- dynamic h/3, left/2.", "left(guid, old).",
+                "h(guid, (_,$1), main) :- !,",
+                "   move_agent(guid, (localhost,$2)), left(guid, X),",
+                "   writeln(here_still(X)).",
+                "h(guid, _, main) :- writeln(there(guid))." ], []],
+             [ up(a, 1), up(b, 1),
+               a:"create_mobile_agent(a, (localhost,$1), h, [1]), \c
+                  add_payload(a, [(left,2)]), \c
+                  execute_agent(a, (localhost,$1), h).",
+               b > ["there(a)"], a > ["here_still(old)"],
+               a:"between(1, 2000, _), findall(X, left(X,_), L), \c
+                  ( L == [guid] -> true ; sleep(0.01), fail ), !, \c
+                  writeln(left(L)).", a > ["left([guid])"] ]).
 test(large_port) :-
     ports(1, [P]),
     Large is P+65536,
-    with_nodes([[]], [A],
-               ( up(A, Large, 1),
-                 type(A, "get_tartarus_details(I,P), writeln(I-P)."),
-                 line("localhost-~w", [Large], Details),
-                 printed(A, [Details]) )).
+    format(string(Start), "start_tartarus(localhost, ~d, 1).", [Large]),
+    format(string(Details), "localhost-~d", [Large]),
+    tartarus([[]], [ a:Start, a:"get_tartarus_details(I,P), writeln(I-P).",
+                     a > [Details] ]).
 test(wrong_arguments_abort) :-
     with_nodes([[]], [A],
                ( type(A, "start_tartarus(localhost, x, y) ; writeln(no)."),
@@ -198,105 +181,70 @@ test(wrong_arguments_abort) :-
 :- begin_tests(earlier_generations).
 
 test(first_generation) :-
-    ports(2, [P1,P2]),
-    line("h(guid, (_,~w), main) :- !, sum(guid, S), S1 is S+1,", [P1], L1),
-    line("   agent_move(guid, (localhost,~w)).", [P2], L2),
-    with_nodes([[ ":- dynamic h/3, sum/2.", "sum(guid, 0).",
-                  L1, "   retractall(sum(guid,_)), assertz(sum(guid,S1)),", L2,
-                  "h(guid, _, main) :- sum(guid, S), writeln(sum:S)." ],
-                []],
-               [A,B],
-               ( line("platform_start(localhost, ~w), set_token(5).", [P1], S1),
-                 line("platform_start(localhost, ~w), set_token(5).", [P2], S2),
-                 type(A, S1), type(B, S2),
-                 line("Port = ~w", [P2], Banner), printed(B, [Banner]),
-                 line("agent_create(add, (localhost,~w), h), \c
-                       add_token(add, [5]), add_payload(add, [(sum,2)]), \c
-                       agent_execute(add, (localhost,~w), h).", [P1,P1], Go),
-                 type(A, Go),
-                 printed(B, ["Agent bearing add has arrived to this platform. ",
-                             "sum:1"]),
-                 printed(A, ["Time taken to get acknowledgement by agent add:"])
-               )).
+    tartarus([[ ":- dynamic h/3, sum/2.", "sum(guid, 0).",
+                "h(guid, (_,$1), main) :- !, sum(guid, S), S1 is S+1,",
+                "   retractall(sum(guid,_)), assertz(sum(guid,S1)),",
+                "   agent_move(guid, (localhost,$2)).",
+                "h(guid, _, main) :- sum(guid, S), writeln(sum:S)." ], []],
+             [ a:"platform_start(localhost, $1), set_token(5).",
+               b:"platform_start(localhost, $2), set_token(5).",
+               b > ["Port = $2"],
+               a:"agent_create(add, (localhost,$1), h), \c
+                  add_token(add, [5]), add_payload(add, [(sum,2)]), \c
+                  agent_execute(add, (localhost,$1), h).",
+               b > [ "Agent bearing add has arrived to this platform. ",
+                     "sum:1" ],
+               a > ["Time taken to get acknowledgement by agent add:"] ]).
 test(without_a_token_no_agent_is_admitted) :-
-    ports(2, [P1,P2]),
-    with_nodes([[":- dynamic h/3.", "h(guid, _, main)."], []], [A,B],
-               ( line("start_tartarus(~w).", [P1], S1),
-                 line("start_tartarus(localhost,~w).", [P2], S2),
-                 type(A, S1), type(B, S2),
-                 line("Port = ~w", [P2], Banner), printed(B, [Banner]),
-                 line("create_mobile_agent(m, h), add_token(m, [1]), \c
-                       move_agent(m, (localhost,~w)).", [P2], Go),
-                 type(A, Go),
-                 printed(A, ["Agent m was not allowed to enter"]) )).
+    tartarus([[":- dynamic h/3.", "h(guid, _, main)."], []],
+             [ a:"start_tartarus($1).", b:"start_tartarus(localhost,$2).",
+               b > ["Port = $2"],
+               a:"create_mobile_agent(m, h), add_token(m, [1]), \c
+                  move_agent(m, (localhost,$2)).",
+               a > ["Agent m was not allowed to enter"] ]).
 test(static_agent_is_reached_at_its_port) :-
-    ports(3, [P1,P2,P3]),
-    with_nodes([[ "h(guid, (Ip,Port), main) :- writeln('Hello':guid:Ip:Port).",
-                  "h(guid, From, What) :- writeln(heard(guid, From, What))." ],
-                []],
-               [A,B],
-               ( line("start_tartarus(localhost,~w).", [P1], S1),
-                 line("start_tartarus(localhost,~w).", [P2], S2),
-                 type(A, S1), type(B, S2),
-                 line("create_static_agent(s, (localhost,~w), h), \c
-                       execute_agent(s, (localhost,~w), h), \c
-                       move_agent(s, (localhost,~w)).", [P3,P3,P2], Go),
-                 type(A, Go),
-                 line("Hello:s:localhost:~w", [P3], Hello),
-                 printed(A, [Hello]),
-                 printed(A, ["Move agent Failed for :s"]),
-                 line("post_agent(platform, (localhost,~w), \c
-                       [h,s,(localhost,~w),ping]).", [P3,P2], Post),
-                 type(B, Post),
-                 line("heard(s,(localhost,~w),ping)", [P2], Heard),
-                 printed(A, [Heard]),
-                 line("post_agent(platform, (localhost,~w), \c
-                       [h,s,(localhost,~w),ping]) ; writeln(refused).",
-                      [P1,P2], Wrong),
-                 type(B, Wrong),
-                 printed(B, ["Ack:fail", "refused"]) )).
+    tartarus([[ "h(guid, (Ip,Port), main) :- writeln('Hello':guid:Ip:Port).",
+                "h(guid, From, What) :- writeln(heard(guid, From, What))." ],
+              []],
+             [ a:"start_tartarus(localhost,$1).",
+               b:"start_tartarus(localhost,$2).",
+               a:"create_static_agent(s, (localhost,$3), h), \c
+                  execute_agent(s, (localhost,$3), h), \c
+                  move_agent(s, (localhost,$2)).",
+               a > ["Hello:s:localhost:$3"], a > ["Move agent Failed for :s"],
+               b:"post_agent(platform, (localhost,$3), \c
+                  [h,s,(localhost,$2),ping]).",
+               a > ["heard(s,(localhost,$2),ping)"],
+               b:"post_agent(platform, (localhost,$1), \c
+                  [h,s,(localhost,$2),ping]) ; writeln(refused).",
+               b > ["Ack:fail", "refused"] ]).
 
 :- end_tests(earlier_generations).
 
 :- begin_tests(messages).
 
 test(message_to_any_agent_of_a_platform) :-
-    ports(2, [P1,P2]),
-    with_nodes([[], [ "hear(Sender, (_,_), W) :- writeln(got(Sender, W)).",
-                      "bad(_, _) :- fail." ]],
-               [A,B],
-               ( up(A, P1, 1), up(B, P2, 1),
-                 line("post_agent(platform, (localhost,~w), \c
-                       [hear,X,(localhost,~w),\"Hello\"]), writeln(x(X)).",
-                      [P2,P1], Post),
-                 type(A, Post),
-                 printed(B, ["got(platform,Hello)"]),
-                 printed(A, ["x(platform)"]),
-                 line("post_agent(platform, (localhost,~w), [bad,platform,1]), \c
-                       writeln(accepted).", [P2], Bad),
-                 type(A, Bad),
-                 printed(A, ["accepted"]),
-                 printed(B, ["Message bad(platform,1) failed"]) )).
+    tartarus([[], [ "hear(Sender, (_,_), W) :- writeln(got(Sender, W)).",
+                    "bad(_, _) :- fail." ]],
+             [ up(a, 1), up(b, 1),
+               a:"post_agent(platform, (localhost,$2), \c
+                  [hear,X,(localhost,$1),\"Hello\"]), writeln(x(X)).",
+               b > ["got(platform,Hello)"], a > ["x(platform)"],
+               a:"post_agent(platform, (localhost,$2), [bad,platform,1]), \c
+                  writeln(accepted).",
+               a > ["accepted"], b > ["Message bad(platform,1) failed"] ]).
 test(message_to_unknown_agent) :-
-    ports(2, [P1,P2]),
-    with_nodes([[]], [A],
-               ( up(A, P1, 1),
-                 line("post_agent(platform, (localhost,~w), [f,a]) \c
-                       ; writeln(failed).", [P2], Post),
-                 type(A, Post),
-                 printed(A, ["failed"]) )).
+    tartarus([[]],
+             [ up(a, 1),
+               a:"post_agent(platform, (localhost,$2), [f,a]) \c
+                  ; writeln(failed).", a > ["failed"] ]).
 test(logs) :-
-    ports(2, [P1,P2]),
-    with_nodes([[], []], [A,B],
-               ( up(A, P1, 1), up(B, P2, 1),
-                 line("set_log_server(localhost,~w), send_log(me, done(1)).",
-                      [P2], Log),
-                 type(A, Log),
-                 line("me localhost ~w done(1)", [P1], Entry),
-                 printed(B, [Entry]),
-                 type(B, "read_file_to_string('server_log.txt', S, []), \c
-                          print(S), nl."),
-                 printed(B, ["\"\\n", Entry]) )).
+    tartarus([[], []],
+             [ up(a, 1), up(b, 1),
+               a:"set_log_server(localhost,$2), send_log(me, done(1)).",
+               b > ["me localhost $1 done(1)"],
+               b:"read_file_to_string('server_log.txt', S, []), print(S), nl.",
+               b > ["\"\\n", "me localhost $1 done(1)"] ]).
 
 :- end_tests(messages).
 
@@ -306,32 +254,31 @@ test(logs) :-
 %   of Tartarus there, and returns.
 
 test(native_agents_visit_a_platform, What == heard(ping(7), 42)) :-
-    ports(1, [P]),
     with_nodes([["answer(42)."]], [B],
-               ( up(B, P, 5),
-                 with_hosts([alpha], visit(P, B, What)) )).
+               ( started(B, P), with_hosts([alpha], visit(P, B, What)) )).
 
-visit(P, B, What) :-
-    line("tartarus@127.0.0.1:~w", [P], Address0),
-    atom_string(Address, Address0),
+started(Node, Address) :-
+    ports(1, [Port]),
+    step(up(a, 5), [Node], [Port, 0, 0]),
+    format(atom(Address), "tartarus@127.0.0.1:~d", [Port]).
+
+visit(Address, B, What) :-
     create([ (main :- home(Home), move(Address), answer(X),
                       writeln(native(X)), receive(_-Message), move(Home),
                       leave(heard(Message, X))) ],
            Agent, [tokens([5])]),
     printed(B, ["native(42)"]),
-    line("post_agent(platform, (localhost,~w), [ping,'~w',7]).", [P, Agent],
-         Post),
+    atomic_list_concat([_, Port], :, Address),
+    format(string(Post), "post_agent(platform, (localhost,~w), [ping,'~w',7]).",
+           [Port, Agent]),
     type(B, Post),
     joined(Agent, done),
     remote(alpha, take(What0)),
     What = What0.
 
 test(native_agents_show_their_tokens, Why == token) :-
-    ports(1, [P]),
     with_nodes([[]], [B],
-               ( up(B, P, 5),
-                 line("tartarus@127.0.0.1:~w", [P], Address0),
-                 atom_string(Address, Address0),
+               ( started(B, Address),
                  with_hosts([alpha],
                             ( create([(main :- catch(move(Address),
                                                      error(move_refused(_, W), _),
@@ -344,63 +291,43 @@ test(native_agents_show_their_tokens, Why == token) :-
 :- begin_tests(platforms).
 
 test(reset_takes_effect_at_once) :-
-    ports(2, [P1,P2]),
-    with_nodes([[":- dynamic h/3.", "h(guid, _, main) :- writeln(here)."], []],
-               [A,B],
-               ( up(A, P1, 1), up(B, P2, 1),
-                 line("create_mobile_agent(a, (localhost,~w), h, [1]), \c
-                       move_agent(a, (localhost,~w)).", [P1,P2], Go),
-                 type(A, Go), printed(B, ["here"]),
-                 type(B, "reset_tartarus, list_agent(L), writeln(left(L))."),
-                 printed(B, ["restarted sucessfully", "left([])"]),
-                 type(A, Go), printed(B, ["left([])", "here"]),
-                 type(B, "close_tartarus."),
-                 printed(B, ["Platform has been closed."]),
-                 up(B, P2, 1),
-                 line("Port = ~w", [P2], Again),
-                 printed(B, ["closed.", Again]),
-                 type(A, Go), printed(B, ["closed.", "here"]) )).
+    Go = "create_mobile_agent(a, (localhost,$1), h, [1]), \c
+          move_agent(a, (localhost,$2)).",
+    tartarus([[":- dynamic h/3.", "h(guid, _, main) :- writeln(here)."], []],
+             [ up(a, 1), up(b, 1), a:Go, b > ["here"],
+               b:"reset_tartarus, list_agent(L), writeln(left(L)).",
+               b > ["restarted sucessfully", "left([])"],
+               a:Go, b > ["left([])", "here"],
+               b:"close_tartarus.", b > ["Platform has been closed."],
+               up(b, 1), b > ["closed.", "Port = $2"],
+               a:Go, b > ["closed.", "here"] ]).
 test(agent_made_on_another_platform) :-
-    ports(2, [P1,P2]),
-    with_nodes([[], [":- dynamic h/3.", "h(guid, _, main) :- writeln(ran)."]],
-               [A,B],
-               ( up(A, P1, 1), up(B, P2, 1),
-                 line("create_mobile_agent(far, (localhost,~w), h, [1]).",
-                      [P2], Go),
-                 type(A, Go),
-                 line("Creating agent on platform with IP localhost and port \c
-                       number ~w", [P2], Said),
-                 printed(A, [Said, "true"]),
-                 line("execute_agent(far, (localhost,~w), h).", [P2], Run),
-                 type(B, Run),
-                 printed(B, ["ran"]) )).
+    tartarus([[], [":- dynamic h/3.", "h(guid, _, main) :- writeln(ran)."]],
+             [ up(a, 1), up(b, 1),
+               a:"create_mobile_agent(far, (localhost,$2), h, [1]).",
+               a > [ "Creating agent on platform with IP localhost and port \c
+                      number $2", "true" ],
+               b:"execute_agent(far, (localhost,$2), h).", b > ["ran"] ]).
 test(saved_agents_are_loaded) :-
-    ports(2, [P1,P2]),
-    with_nodes([[ ":- dynamic h/3, n/2.", "n(guid, 1).",
-                  "h(guid, _, main) :- n(guid, N), writeln(guid:N)." ], []],
-               [A,B],
-               ( up(A, P1, 1), up(B, P2, 1),
-                 type(A, "create_mobile_agent(a, _, h, [1]), \c
-                          add_payload(a, [(n,2)]), save_agent(a, 'a.pl'), \c
-                          save_tartarus_state('all.txt'), writeln(saved)."),
-                 printed(A, ["saved"]),
-                 type(B, "load_tartarus_state('all.txt')."),
-                 printed(B, ["a:1"]),
-                 type(B, "purge_agent(a), consult('a.pl'), n(a, X), \c
-                          writeln(n:X)."),
-                 printed(B, ["n:1"]) )).
+    tartarus([[ ":- dynamic h/3, n/2.", "n(guid, 1).",
+                "h(guid, _, main) :- n(guid, N), writeln(guid:N)." ], []],
+             [ up(a, 1), up(b, 1),
+               a:"create_mobile_agent(a, _, h, [1]), \c
+                  add_payload(a, [(n,2)]), save_agent(a, 'a.pl'), \c
+                  save_tartarus_state('all.txt'), writeln(saved).",
+               a > ["saved"],
+               b:"load_tartarus_state('all.txt').", b > ["a:1"],
+               b:"purge_agent(a), consult('a.pl'), n(a, X), writeln(n:X).",
+               b > ["n:1"] ]).
 test(local_definitions_take_precedence) :-
-    ports(1, [P]),
-    with_nodes([[ "agent_list(mine).", "nothing :- writeln(my_nothing).",
-                  "move(X) :- writeln(moving(X)).",
-                  ":- dynamic platform_port/1, tts/1." ]],
-               [A],
-               ( up(A, P, 1),
-                 type(A, "agent_list(X), writeln(X), nothing, move(there)."),
-                 printed(A, ["mine", "my_nothing", "moving(there)"]),
-                 type(A, "\\+ tts(a), platform_port(Q), writeln(port:Q)."),
-                 line("port:~w", [P], Port),
-                 printed(A, [Port]) )).
+    tartarus([[ "agent_list(mine).", "nothing :- writeln(my_nothing).",
+                "move(X) :- writeln(moving(X)).",
+                ":- dynamic platform_port/1, tts/1." ]],
+             [ up(a, 1),
+               a:"agent_list(X), writeln(X), nothing, move(there).",
+               a > ["mine", "my_nothing", "moving(there)"],
+               a:"\\+ tts(a), platform_port(Q), writeln(port:Q).",
+               a > ["port:$1"] ]).
 
 :- end_tests(platforms).
 
@@ -410,11 +337,9 @@ test(local_definitions_take_precedence) :-
 %   Goals are typed, prints Texts.
 
 answers(Lines, Goals, Texts) :-
-    ports(1, [P]),
-    with_nodes([Lines], [A],
-               ( up(A, P, 1),
-                 forall(member(Goal, Goals), type(A, Goal)),
-                 printed(A, Texts) )).
+    findall(a:Goal, member(Goal, Goals), Typed),
+    append([[up(a, 1)], Typed, [a > Texts]], Steps),
+    tartarus([Lines], Steps).
 
 test(atoms_are_replaced_in_terms_only) :-
     answers([ ":- dynamic h/3.",
@@ -444,23 +369,17 @@ test(unbound_port_is_that_of_the_platform) :-
               "create_mobile_agent(w, (elsewhere,_), h, [5])." ],
             ["bound", "bound, too", "ip:localhost", "Error# ma7"]).
 test(payload_named_like_a_library_predicate) :-
-    ports(2, [P1,P2]),
-    Program = [":- dynamic h/3.",
-               "h(guid, _, main) :- checklist(guid, X), writeln(got:X)."],
-    line("create_mobile_agent(c, (localhost,~w), h, [1]), \c
-          add_payload(c, [(checklist,2),(partition,4)]), \c
-          move_agent(c, (localhost,~w)).", [P1,P2], Go),
-    with_nodes([[":- dynamic checklist/2.", "checklist(guid, 7).",
-                 "partition(guid, 1, 2, 3)."|Program], []],
-               [A,B],
-               ( up(A, P1, 1), up(B, P2, 1),
-                 type(B, "partition(atom, [1], In, Out), \c
-                          writeln(loaded(In, Out))."),
-                 printed(B, ["loaded([],[1])"]),
-                 type(A, Go),
-                 printed(B, ["got:7"]),
-                 type(B, "partition(c, 1, 2, X), writeln(x:X)."),
-                 printed(B, ["x:3"]) )).
+    tartarus([[ ":- dynamic checklist/2.", "checklist(guid, 7).",
+                "partition(guid, 1, 2, 3).", ":- dynamic h/3.",
+                "h(guid, _, main) :- checklist(guid, X), writeln(got:X)." ],
+               []],
+             [ up(a, 1), up(b, 1),
+               b:"partition(atom, [1], In, Out), writeln(loaded(In, Out)).",
+               b > ["loaded([],[1])"],
+               a:"create_mobile_agent(c, (localhost,$1), h, [1]), \c
+                  add_payload(c, [(checklist,2),(partition,4)]), \c
+                  move_agent(c, (localhost,$2)).", b > ["got:7"],
+               b:"partition(c, 1, 2, X), writeln(x:X).", b > ["x:3"] ]).
 test(oldest_agent_comes_first) :-
     answers([":- dynamic h/3.", "h(guid, _, main)."],
             [ "create_mobile_agent(a1, _, h, [1]), \c
@@ -487,21 +406,16 @@ test(execute_waits_for_the_last_agent) :-
               "tartarus_lives:last(b, T), thread_send_message(T, go(two))." ],
             ["end(one)", "begin(two)", "end(two)"]).
 test(hop_times) :-
-    ports(2, [P1,P2]),
-    with_nodes([[":- dynamic h/3.", "h(guid, _, main) :- writeln(in)."], []],
-               [A,B],
-               ( up(A, P1, 1), up(B, P2, 1),
-                 type(A, "in_hop_time_stat(X,Y,Z), writeln(X/Y/Z)."),
-                 line("create_mobile_agent(a, _, h, [1]), \c
-                       move_agent(a, (localhost,~w)).", [P2], Go),
-                 type(A, Go), printed(B, ["in"]),
-                 type(A, "out_hop_times_details([(N,F,T,(D,M),S)]), \c
-                          float(S), atom(D), writeln(N:F:T)."),
-                 line("a:(localhost,~w):(localhost,~w)", [P1,P2], Out),
-                 printed(A, ["0/0/0", Out]),
-                 type(B, "in_hop_time_stat(Max,Max,Max), in_hop_time(W,Max), \c
-                          writeln(w:W)."),
-                 printed(B, ["w:a"]) )).
+    tartarus([[":- dynamic h/3.", "h(guid, _, main) :- writeln(in)."], []],
+             [ up(a, 1), up(b, 1),
+               a:"in_hop_time_stat(X,Y,Z), writeln(X/Y/Z).",
+               a:"create_mobile_agent(a, _, h, [1]), \c
+                  move_agent(a, (localhost,$2)).", b > ["in"],
+               a:"out_hop_times_details([(N,F,T,(D,M),S)]), \c
+                  float(S), atom(D), writeln(N:F:T).",
+               a > ["0/0/0", "a:(localhost,$1):(localhost,$2)"],
+               b:"in_hop_time_stat(Max,Max,Max), in_hop_time(W,Max), \c
+                  writeln(w:W).", b > ["w:a"] ]).
 test(asserted_files_are_removed_by_reset) :-
     answers([":- dynamic h/3."],
             [ "open('f.pl', write, S), writeln(S, 'colour(red).'), close(S), \c
