@@ -26,11 +26,6 @@ problems(Lines, Problems) :-
           error(study(_, Problems), _),
           true).
 
-more_problems(More, Problems) :-
-    base(Base),
-    append(Base, More, Lines),
-    problems(Lines, Problems).
-
 title(Title, Study) :-
     study_title(Study, Name, Text),
     Title = Name-Text.
@@ -39,47 +34,48 @@ has(Text, Parts) :-
     forall(member(Part, Parts),
            assertion(once(sub_string(Text, _, _, _, Part)))).
 
+%   problems(Name, More, Problems): of the study base/1 with the lines More.
+
+problems(arity, ['claim("small", m < 2).'], [arity(claim/2, claim/3)]).
+problems(helpers_may_share_names_of_hooks, ['run(a, b, c).', 'label(a).'], []).
+problems(no_values, ['vary(b, 1).'], [no_values(b)]).
+problems(no_test, ['claim("small", [], smal(m)).'],
+         [said(claim("small"), no_test(smal(m)))]).
+problems(unknown_in_a_claim, ['claim("small", [], n < a).'],
+         [said(claim("small"), unknown(n))]).
+problems(unknown_value, [ 'vary(k, [grid, ring]).',
+                          'claim("small", [], least(m, k=gird)).' ],
+         [said(claim("small"), no_case(k=gird))]).
+problems(unknown_in_a_plot,
+         ['plot(p, "P", lines([x(b), y([m, n]), line(a)])).'],
+         [said(plot(p), unknown(b)), said(plot(p), unknown(n))]).
+problems(measures_may_have_many_names,
+         [ 'measure(Name, _, 2) :- member(Name, [n, o]).',
+           'claim("small", [], n < a).' ], []).
+problems(parameters_may_be_derived, [ 'derive(d, Case, D) :- D is Case.a.',
+                                      'claim("small", [], m < d).' ], []).
+problems(option_of_a_plot, ['plot(p, "P", lines([x(a), y(m), xlabl(t)])).'],
+         [said(plot(p), wrong(domain_error(lines_option, xlabl(t))))]).
+problems(unknown_picture, ['plot(p, "P", bars([])).'],
+         [said(plot(p), no_picture(bars([])))]).
+problems(own_test_is_missing, ['claim("own", [], holds(own)).'],
+         [said(claim("own"), no_test(holds(own)))]).
+
 :- begin_tests(studies).
 
 test(title, Title == toy-"A toy") :-
-    base(Base),
-    append(Base, [], Lines),
+    base(Lines),
     with_study(Lines, title(Title)).
 test(no_study, Problems == [missing(study/2), missing(measure/3)]) :-
     problems(['a.'], Problems).
-test(arity, Problems == [arity(claim/2, claim/3)]) :-
-    more_problems(['claim("small", m < 2).'], Problems).
-test(helpers_may_share_names_of_hooks, Problems == []) :-
-    more_problems(['run(a, b, c).', 'label(a).'], Problems).
-test(no_values, Problems == [no_values(b)]) :-
-    more_problems(['vary(b, 1).'], Problems).
-test(no_test, Problems == [said(claim("small"), no_test(smal(m)))]) :-
-    more_problems(['claim("small", [], smal(m)).'], Problems).
-test(unknown_in_a_claim, Problems == [said(claim("small"), unknown(n))]) :-
-    more_problems(['claim("small", [], n < a).'], Problems).
-test(unknown_value, Problems == [said(claim("small"), no_case(k=gird))]) :-
-    more_problems([ 'vary(k, [grid, ring]).',
-                    'claim("small", [], least(m, k=gird)).' ], Problems).
-test(unknown_in_a_plot, Problems == [ said(plot(p), unknown(b)),
-                                      said(plot(p), unknown(n)) ]) :-
-    more_problems(['plot(p, "P", lines([x(b), y([m, n]), line(a)])).'],
-                  Problems).
-test(measures_may_have_many_names, Problems == []) :-
-    more_problems([ 'measure(Name, _, 2) :- member(Name, [n, o]).',
-                    'claim("small", [], n < a).' ], Problems).
-test(parameters_may_be_derived, Problems == []) :-
-    more_problems([ 'derive(d, Case, D) :- D is Case.a.',
-                    'claim("small", [], m < d).' ], Problems).
-test(option_of_a_plot,
-     Problems == [said(plot(p), wrong(domain_error(lines_option, xlabl(t))))]) :-
-    more_problems(['plot(p, "P", lines([x(a), y(m), xlabl(t)])).'], Problems).
-test(unknown_picture, Problems == [said(plot(p), no_picture(bars([])))]) :-
-    more_problems(['plot(p, "P", bars([])).'], Problems).
-test(own_test_is_missing,
-     Problems == [said(claim("own"), no_test(holds(own)))]) :-
-    more_problems(['claim("own", [], holds(own)).'], Problems).
+test(problems_of_a_study, [ forall(problems(_, More, Expected)),
+                            Problems == Expected ]) :-
+    base(Base),
+    append(Base, More, Lines),
+    problems(Lines, Problems).
 test(mistyped_word) :-
-    study_messages(more_problems(['labl(m, "M").'], Problems), Text),
+    base(Base),
+    study_messages(problems(['labl(m, "M").'|Base], Problems), Text),
     assertion(Problems == []),
     has(Text, ["labl/2 is not a predicate of studies (did you mean label/2?)"]).
 test(all_errors_are_reported) :-
@@ -187,83 +183,73 @@ one_case(Args, Parts, Dir, File) :-
     directory_file_path(Dir, 'out/index.html', Page),
     assertion(\+ exists_file(Page)).
 
+%   prints(Name, Args, Status, Parts): of what the command prints about the
+%   study above.
+
+prints(help, Args, exit(0),
+       ["toy: A toy", "  a          [1,2]      varied", "assumed: so"]) :-
+    member(Args, [['--help'], ['--runs', 1, '--help'], ['-h', '--set', 'c=4']]).
+prints(table_and_claims, ['--runs', 2, '--out', out], exit(0),
+       [ "toy: A toy", "  a  b      runs   m", "2  x         2  23",
+         "held, 2 runs        m grows", "n: no value",
+         "claim(\"n is small\"): no run has a value of n",
+         "1 of 2 claims held in all runs.", "index.html" ]).
+prints(set, ['--set', 'c=[4,5]', '--set', 'a=1', '--set', 'b=x', '--runs', 1],
+       exit(0), ["  a  b  c  runs   m", "  1  x  4     1  14",
+                 "  1  x  5     1  15"]).
+prints(last_set_counts,
+       ['--set', 'a=1', '--set', 'b=x', '--set', 'a=2', '--runs', 1],
+       exit(0), ["  a  b  runs   m\n  2  x     1  23\n\n"]).
+prints(set_text, ['--set', 'b=Some Text', '--set', 'a=1', '--runs', 1],
+       exit(0), ["  1  Some Text     1  13"]).
+prints(set_half_a_term, ['--set', Set], exit(1), [Half]) :-
+    member(Half, ['[1,', 'f(1', '1,2)']),
+    atom_concat('a=', Half, Set).
+prints(set_nothing, ['--set', Set], exit(1), ["NAME=VALUE"]) :-
+    member(Set, [b, 'a=']).
+prints(no_such_case, ['--case', Case], exit(1),
+       ["case", "does not exist; cases are a=1,b=x  a=1,b=it is  "]) :-
+    member(Case, [9, 'a=3,b=x']).
+prints(no_case_in_real_time, ['--real', '--runs', 1, '--set', 'a=1'], exit(0),
+       ["--real: real/2 selects none"]).
+prints(no_cases_left_to_compare, ['--set', 'a=1', '--runs', 1], exit(0),
+       ["not known           m grows"]).
+prints(collect_of_missing_runs, ['--collect', '--out', out], exit(1),
+       ["not known", "12 of 12 runs are missing"]).
+prints(no_runs, [Option, 0], exit(1), []) :-
+    member(Option, ['--runs', '--jobs']).
+
 :- begin_tests(study_command).
 
+test(command_prints, [forall(prints(_, Args, Expected, Parts))]) :-
+    prints(Args, Status, Text),
+    assertion(Status = Expected),
+    has(Text, Parts).
 test(help) :-
-    with_tmp_dir(help(Text)),
+    with_tmp_dir(Dir, study_command(Dir, ['--help'], exit(0), Text)),
     has(Text, ["STUDY", "--runs", "--set=NAME=VALUE", "--case", "--logs",
                "--list", "--collect", "--out"]).
-test(help_of_a_study, forall(member(Args, [ ['--help'],
-                                            ['--runs', 1, '--help'],
-                                            ['-h', '--set', 'c=4'] ]))) :-
-    prints(Args, exit(0), Text),
-    has(Text, ["toy: A toy", "  a          [1,2]      varied", "assumed: so"]).
 test(list_of_studies) :-
     with_tmp_dir(Dir, study_command(Dir, [], exit(0), Text)),
     has(Text, ["  5.6            Idle time and overlaps"]).
-test(table_and_claims) :-
-    prints(['--runs', 2, '--out', out], exit(0), Text),
-    has(Text, [ "toy: A toy", "  a  b      runs   m", "2  x         2  23",
-                "held, 2 runs        m grows", "n: no value",
-                "claim(\"n is small\"): no run has a value of n",
-                "1 of 2 claims held in all runs.", "index.html" ]).
-test(set) :-
-    prints(['--set', 'c=[4,5]', '--set', 'a=1', '--set', 'b=x', '--runs', 1],
-           exit(0), Text),
-    has(Text, ["  a  b  c  runs   m", "  1  x  4     1  14",
-               "  1  x  5     1  15"]).
-test(last_set_counts) :-
-    prints(['--set', 'a=1', '--set', 'b=x', '--set', 'a=2', '--runs', 1],
-           exit(0), Text),
-    has(Text, ["  2  x     1  23"]),
-    assertion(\+ sub_string(Text, _, _, _, "  1  x")).
-test(set_text) :-
-    prints(['--set', 'b=Some Text', '--set', 'a=1', '--runs', 1], exit(0),
-           Text),
-    has(Text, ["  1  Some Text     1  13"]).
-test(set_half_a_term, forall(member(Half, ['[1,', 'f(1', '1,2)']))) :-
-    atom_concat('a=', Half, Set),
-    prints(['--set', Set], exit(1), Text),
-    has(Text, [Half]).
-test(set_nothing) :-
-    prints(['--set', b], exit(1), Text),
-    has(Text, ["NAME=VALUE"]).
-test(case_by_number) :-
-    with_command(one_case(['--case', 3], ["  m           23", "a=2,b=x,seed=1"])).
-test(case_by_name) :-
-    with_command(one_case(['--case', 'a=1,b=it is', '--seed', 4],
-                          ["  m           13", "a=1,b=it is,seed=4"])).
-test(no_such_case, forall(member(Case, [9, 'a=3,b=x']))) :-
-    prints(['--case', Case], exit(1), Text),
-    has(Text, ["case", "does not exist; cases are a=1,b=x  a=1,b=it is  "]).
-test(case_parameters_in_any_order) :-
-    with_command(one_case(['--case', 'b=x,a=2'], ["a=2,b=x,seed=1"])).
-test(no_case_in_real_time) :-
-    prints(['--real', '--runs', 1, '--set', 'a=1'], exit(0), Text),
-    has(Text, ["--real: real/2 selects none"]).
+test(one_case,
+     [forall(member(Args-Parts,
+                    [ ['--case', 3]-["  m           23", "a=2,b=x,seed=1"],
+                      ['--case', 'a=1,b=it is', '--seed', 4]
+                      -["  m           13", "a=1,b=it is,seed=4"],
+                      ['--case', 'b=x,a=2']-["a=2,b=x,seed=1"] ]))]) :-
+    with_command(one_case(Args, Parts)).
 test(command_names_the_folder_of_the_runs) :-
     with_command(again).
 test(no_such_study) :-
-    with_tmp_dir(no_such_study(Text)),
+    with_tmp_dir(Dir, study_command(Dir, ['99.9'], exit(1), Text)),
     has(Text, ["There is no study 99.9"]).
 test(mistyped_study) :-
     with_study_file(['study(a, b).'], Dir, _,
         study_command(Dir, ['stdy.pl'], exit(1), Text)),
     has(Text, ["There is no study stdy.pl (did you mean study.pl?)"]).
-test(set_without_a_value) :-
-    prints(['--set', 'a='], exit(1), Text),
-    has(Text, ["NAME=VALUE"]).
 test(list) :-
     with_command(listed).
-test(no_cases_left_to_compare) :-
-    prints(['--set', 'a=1', '--runs', 1], exit(0), Text),
-    has(Text, ["not known           m grows"]).
-test(collect_of_missing_runs) :-
-    prints(['--collect', '--out', out], exit(1), Text),
-    has(Text, ["not known", "12 of 12 runs are missing"]).
-test(no_runs, forall(member(Option, ['--runs', '--jobs']))) :-
-    prints([Option, 0], Status, _),
-    assertion(Status \== exit(0)).
 
 :- end_tests(study_command).
 
@@ -272,9 +258,3 @@ again(Dir, File) :-
     directory_file_path(Dir, 'there/index.html', Page),
     read_file_to_string(Page, Text, [encoding(utf8)]),
     has(Text, ["--seed 1 --out there"]).
-
-help(Text, Dir) :-
-    study_command(Dir, ['--help'], exit(0), Text).
-
-no_such_study(Text, Dir) :-
-    study_command(Dir, ['99.9'], exit(1), Text).
