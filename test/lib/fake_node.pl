@@ -12,7 +12,8 @@
             fact/1,                     % ?Fact
             job/1,                      % -Job
             offer/2,                    % +Details, -Offer
-            announced/3                 % +Details, +Round, -Announcement
+            announced/3,                % +Details, +Round, -Announcement
+            failing_step/2              % :Goals, -Step
           ]).
 :- use_module(fake_agent).
 :- use_module(library(lists), [append/2, member/2, memberchk/2]).
@@ -130,3 +131,17 @@ job(job(owner, 1)).
 announced(Details, Round, announce(Job, Round, Offer)) :-
     job(Job),
     offer(Details, Offer).
+
+%!  failing_step(:Goals:list, -Step) is det.
+%
+%   Step is the first of Goals that fails, each called once, or `none`.
+
+:- meta_predicate failing_step(:, -).
+
+failing_step(_:[], none) :-
+    !.
+failing_step(M:[Goal|Goals], Step) :-
+    call(M:Goal),
+    !,
+    failing_step(M:Goals, Step).
+failing_step(_:[Step|_], Step).
