@@ -1,8 +1,10 @@
 :- module(test_nxt_fixtures,
           [ with_peer/3,                % -Peer, -Port, :Goal
+            with_peer/4,                % +Name, +Options, -Peer, :Goal
             peer_command/2,             % +Peer, +Line
             peer_received/2,            % +Peer, -Telegram
             with_brick/3,               % -Brick, -Port, :Goal
+            with_brick/4,               % +Name, +Options, -Brick, :Goal
             brick_ask/3,                % +Brick, +Line, -Answer
             connected/4,                % +Name, +Port, +Options, :Goal
             helper_pid/1                % -Pid
@@ -25,12 +27,15 @@ one.  Both are processes of their own behind pseudo-terminals.
 
 :- meta_predicate
     with_peer(-, -, 0),
+    with_peer(+, +, -, 0),
     with_brick(-, -, 0),
+    with_brick(+, +, -, 0),
     connected(+, +, +, 0).
 
 %!  with_peer(-Peer, -Port, :Goal) is semidet.
+%!  with_peer(+Name, +Options, -Peer, :Goal) is semidet.
 %
-%   Calls Goal once while a peer is running at Port.
+%   Calls Goal once while a peer is running at Port, or is connected as Name.
 
 with_peer(Peer, Port, Goal) :-
     project_file('test/lib/nxt_peer.py', File),
@@ -38,6 +43,9 @@ with_peer(Peer, Port, Goal) :-
                 ( peer_received(Peer, Port),
                   call(Goal)
                 )).
+
+with_peer(Name, Options, Peer, Goal) :-
+    with_peer(Peer, Port, connected(Name, Port, Options, Goal)).
 
 with_python(Args, far(In, Out), Goal) :-
     no_leaks(setup_call_cleanup(
@@ -73,6 +81,7 @@ peer_received(far(_, Out), Telegram) :-
     atom_string(Telegram, Line).
 
 %!  with_brick(-Brick, -Port, :Goal) is semidet.
+%!  with_brick(+Name, +Options, -Brick, :Goal) is semidet.
 
 with_brick(Brick, Port, Goal) :-
     project_file('bridges/nxt/brick.py', File),
@@ -84,6 +93,9 @@ brick_in(File, Brick, Port, Goal, Dir) :-
                 ( answer(Brick, ready(_)),
                   call(Goal)
                 )).
+
+with_brick(Name, Options, Brick, Goal) :-
+    with_brick(Brick, Port, connected(Name, Port, Options, Goal)).
 
 answer(far(_, Out), Term) :-
     read(Out, Term0),

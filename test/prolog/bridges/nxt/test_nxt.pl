@@ -152,33 +152,24 @@ telegram('POLLCOMMAND', _{buffer:1, size:2}, [1,0xA2,1,2],
 :- begin_tests(nxt_bytes).
 
 test(every_command) :-
-    with_peer(Peer, Port,
-              connected(lizzy, Port, [],
-                        forall(telegram(Command, Args, Request, Reply, Vs),
-                               exchanged(Peer, Command, Args, Request,
-                                         Reply, Vs)))).
+    with_peer(lizzy, [], Peer,
+        forall(telegram(Command, Args, Request, Reply, Vs),
+               exchanged(Peer, Command, Args, Request, Reply, Vs))).
 test(without_confirmation) :-
-    with_peer(Peer, Port,
-              connected(lizzy, Port, [confirm(false)],
-                        ( nxt_run(lizzy, b, 100),
-                          nxt_tone(lizzy, 440, 100),
-                          peer_received(Peer, Run0),
-                          peer_received(Peer, Tone0)
-                        ))),
+    with_peer(lizzy, [confirm(false)], Peer,
+        ( nxt_run(lizzy, b, 100),
+          nxt_tone(lizzy, 440, 100),
+          peer_received(Peer, Run0),
+          peer_received(Peer, Tone0) )),
     bytes([0x80,4,1,100,1,0,0,32,d(0)], Run),
     bytes([0x80,3,w(440),w(100)], Tone),
     assertion(Run0-Tone0 == Run-Tone).
 test(calls) :-
-    with_peer(Peer, Port,
-              connected(lizzy, Port, [],
-                        forall(sent(Goal, Requests),
-                               ( maplist(bytes, Requests, Hexes),
-                                 forall(member(Hex, Hexes),
-                                        acknowledge(Peer, Hex)),
-                                 call(Goal),
-                                 forall(member(Hex, Hexes),
-                                        receives(Peer, Hex))
-                               )))).
+    with_peer(lizzy, [], Peer,
+        forall(sent(Goal, Requests),
+               ( maplist(bytes, Requests, Hexes),
+                 forall(member(Hex, Hexes), acknowledge(Peer, Hex)), call(Goal),
+                 forall(member(Hex, Hexes), receives(Peer, Hex)) ))).
 test(i2c, [ forall(member(Left-Read, [ [2,14,0,0]-[], [2,14,0xdd,0]-[],
                                        [2,14,0,5]-[[2,16,0,5,z(16)]] ])),
             Degrees == 275 ]) :-
@@ -188,36 +179,30 @@ test(i2c, [ forall(member(Left-Read, [ [2,14,0,0]-[], [2,14,0xdd,0]-[],
     findall([0,16,2], member(_, Read), Reads),
     append([ [[0,5,2,11,0], [0,14,2]], Reads,
              [[0,15,2,2,2,2,0x44], [0,14,2], [0,14,2], [0,16,2]] ], Requests),
-    with_peer(Peer, Port,
-              connected(lizzy, Port, [],
-                        ( forall(member(Reply, Replies), answer(Peer, Reply)),
-                          nxt_compass(lizzy, 3, Degrees),
-                          forall(member(Request, Requests),
-                                 ( bytes(Request, Hex), receives(Peer, Hex) ))
-                        ))).
+    with_peer(lizzy, [], Peer,
+        ( forall(member(Reply, Replies), answer(Peer, Reply)),
+          nxt_compass(lizzy, 3, Degrees),
+          forall(member(Request, Requests),
+                 ( bytes(Request, Hex), receives(Peer, Hex) )) )).
 test(sensor_waits_until_valid, Pressed == true) :-
     Values = [0,1,32,w(183),w(183),w(1),w(183)],
-    with_peer(Peer, Port,
-              connected(lizzy, Port, [],
-                        ( answer(Peer, [2,5,0]),
-                          answer(Peer, [2,7,0,0,0|Values]),
-                          answer(Peer, [2,7,0,0,1|Values]),
-                          nxt_touch(lizzy, 1, Pressed),
-                          receives(Peer, '0005000120'),
-                          receives(Peer, '000700'),
-                          receives(Peer, '000700'),
-                          answer(Peer, [2,7,0,0,1|Values]),
-                          nxt_touch(lizzy, 1, _),
-                          receives(Peer, '000700')
-                        ))).
+    with_peer(lizzy, [], Peer,
+        ( answer(Peer, [2,5,0]),
+          answer(Peer, [2,7,0,0,0|Values]),
+          answer(Peer, [2,7,0,0,1|Values]),
+          nxt_touch(lizzy, 1, Pressed),
+          receives(Peer, '0005000120'),
+          receives(Peer, '000700'),
+          receives(Peer, '000700'),
+          answer(Peer, [2,7,0,0,1|Values]),
+          nxt_touch(lizzy, 1, _),
+          receives(Peer, '000700') )).
 
 test(display) :-
-    with_peer(Peer, Port,
-              connected(lizzy, Port, [],
-                        ( peer_command(Peer, 'answer 02950001000a000600'),
-                          nxt_write(lizzy, 2, 3, 'D'),
-                          peer_received(Peer, Telegram)
-                        ))),
+    with_peer(lizzy, [], Peer,
+        ( peer_command(Peer, 'answer 02950001000a000600'),
+          nxt_write(lizzy, 2, 3, 'D'),
+          peer_received(Peer, Telegram) )),
     bytes([1,0x95,d(0xA0001),w(431),w(6),
            127,65,65,34,28,0], Expected),
     assertion(Telegram == Expected).

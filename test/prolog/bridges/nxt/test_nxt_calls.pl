@@ -17,10 +17,8 @@ with a real robot if there is one.
 :- begin_tests(nxt_calls).
 
 test(calls_of_all_kinds) :-
-    with_brick(Brick, Port,
-               connected(lizzy, Port, [],
-                         ( sensors(Brick), motors, files, names,
-                           programs ))).
+    with_brick(lizzy, [], Brick,
+        ( sensors(Brick), motors, files, names, programs )).
 test(old_names) :-
     with_brick(Brick, Port, old_names(Brick, Port)).
 test(all_old_names_are_defined, Missing == []) :-
@@ -45,16 +43,13 @@ test(diagnose_nothing, Status-Found == exit(1)-true) :-
     ;   Found = Out
     ).
 test(motor_must_be_bound) :-
-    with_brick(_, Port,
-               connected(lizzy, Port, [],
-                         ( catch(nxt_run(lizzy, _, 50), error(E, _), true),
-                           assertion(E == instantiation_error),
-                           call_cleanup(nxt_turn(lizzy, a, 50, 0),
-                                        Stopped = true),
-                           assertion(Stopped == true),
-                           call_cleanup(nxt_turn(lizzy, a, 50, 9),
-                                        Begun = true),
-                           assertion(Begun == true) ))).
+    with_brick(lizzy, [], _,
+        ( catch(nxt_run(lizzy, _, 50), error(E, _), true),
+          assertion(E == instantiation_error),
+          call_cleanup(nxt_turn(lizzy, a, 50, 0), Stopped = true),
+          assertion(Stopped == true),
+          call_cleanup(nxt_turn(lizzy, a, 50, 9), Begun = true),
+          assertion(Begun == true) )).
 test(power_is_checked,
      [ forall(( member(Power, [-101, 101]),
                 member(Call, [ nxt_run(b, a, Power), nxt_turn(b, a, Power, 9),

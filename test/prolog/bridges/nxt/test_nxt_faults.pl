@@ -94,51 +94,39 @@ test(garbage, E == nxt_error(garbage, b)) :-
 test(short_reply, E == nxt_error(garbage, b)) :-
     after('answer 020b00', E, _).
 test(refused) :-
-    with_peer(Peer, Port,
-              connected(b, Port, [],
-                        forall(refusal(Byte, Name),
-                               ( atom_concat('answer 020b', Byte, Line),
-                                 peer_command(Peer, Line),
-                                 error_of(nxt_battery(b, _), E, C),
-                                 assertion(E == nxt_error(refused(Name), b)),
-                                 assertion(C = context(
-                                                nxt(b, 'GETBATTERYLEVEL'),
-                                                _))
-                               )))).
+    with_peer(b, [], Peer,
+        forall(refusal(Byte, Name),
+               ( atom_concat('answer 020b', Byte, Line),
+                 peer_command(Peer, Line), error_of(nxt_battery(b, _), E, C),
+                 assertion(E == nxt_error(refused(Name), b)),
+                 assertion(C = context(nxt(b, 'GETBATTERYLEVEL'), _)) ))).
 test(late_replies_are_dropped, MilliVolts == 8000) :-
-    with_peer(Peer, Port,
-              connected(b, Port, [deadline(30)],
-                        ( peer_command(Peer, 'raw 0500020b00e803'),
-                          peer_command(Peer, 'answer 020b00401f'),
-                          nxt_battery(b, 1000),
-                          nxt_battery(b, MilliVolts)
-                        ))).
+    with_peer(b, [deadline(30)], Peer,
+        ( peer_command(Peer, 'raw 0500020b00e803'),
+          peer_command(Peer, 'answer 020b00401f'),
+          nxt_battery(b, 1000),
+          nxt_battery(b, MilliVolts) )).
 test(line_lost, E == nxt_error(line_lost, b)) :-
     with_peer(Peer, Port,
-              connected(b, Port, [deadline(30)],
-                        ( peer_command(Peer, 'lose 0500020b'),
-                          error_of(nxt_battery(b, _), E, _),
-                          error_of(nxt_battery(b, _), Later, _)
-                        ))),
+        connected(b, Port, [deadline(30)],
+            ( peer_command(Peer, 'lose 0500020b'),
+              error_of(nxt_battery(b, _), E, _),
+              error_of(nxt_battery(b, _), Later, _) ))),
     assertion(memberchk(Later, [ existence_error(nxt_port, Port),
                                  nxt_error(open_failed, b) ])).
 test(restored_line) :-
-    with_brick(Brick, Port,
-               connected(b, Port, [],
-                         ( nxt_touch(b, 1, _),
-                           brick_ask(Brick, 'fault cut', ok),
-                           error_of(nxt_touch(b, 1, _), E, _),
-                           brick_ask(Brick, restore, _),
-                           wait_until(catch(nxt_touch(b, 1, _),
-                                            error(_, _), fail), 20)
-                         ))),
+    with_brick(b, [], Brick,
+        ( nxt_touch(b, 1, _),
+          brick_ask(Brick, 'fault cut', ok),
+          error_of(nxt_touch(b, 1, _), E, _),
+          brick_ask(Brick, restore, _),
+          wait_until(catch(nxt_touch(b, 1, _), error(_, _), fail), 20) )),
     assertion(memberchk(E, [ nxt_error(line_lost, b),
                              timeout_error(nxt(sensor), b) ])).
 test(low_battery, MilliVolts == 5500) :-
-    with_brick(Brick, Port,
-               connected(b, Port, [],
-                         ( brick_ask(Brick, 'fault battery 5500', ok),
-                           nxt_battery(b, MilliVolts) ))).
+    with_brick(b, [], Brick,
+        ( brick_ask(Brick, 'fault battery 5500', ok),
+          nxt_battery(b, MilliVolts) )).
 
 %   refusal(StatusByte, Name)
 
@@ -184,13 +172,11 @@ refusal('77', status_119).
 %   next call succeeds.
 
 after(What, Error, Context) :-
-    with_peer(Peer, Port,
-              connected(b, Port, [deadline(2)],
-                        ( peer_command(Peer, What),
-                          error_of(nxt_battery(b, _), Error, Context),
-                          peer_command(Peer, 'answer 020b00401f'),
-                          nxt_battery(b, MilliVolts)
-                        ))),
+    with_peer(b, [deadline(2)], Peer,
+        ( peer_command(Peer, What),
+          error_of(nxt_battery(b, _), Error, Context),
+          peer_command(Peer, 'answer 020b00401f'),
+          nxt_battery(b, MilliVolts) )),
     assertion(MilliVolts == 8000).
 
 :- end_tests(nxt_answers).
@@ -198,40 +184,34 @@ after(What, Error, Context) :-
 :- begin_tests(nxt_helpers).
 
 test(killed, E == nxt_error(helper_died(killed(9)), b)) :-
-    with_peer(Peer, Port,
-              connected(b, Port, [deadline(60)],
-                        ( thread_self(Me),
-                          helper_pid(Pid),
-                          thread_create(( error_of(nxt_battery(b, _), F, _),
-                                          thread_send_message(Me, said(F))
-                                        ), Thread),
-                          peer_received(Peer, '000b'),
-                          process_kill(Pid, kill),
-                          thread_get_message(Me, said(E), [timeout(20)]),
-                          thread_join(Thread, _),
-                          peer_command(Peer, 'answer 020b00401f'),
-                          nxt_battery(b, MilliVolts),
-                          helper_pid(Other)
-                        ))),
+    with_peer(b, [deadline(60)], Peer,
+        ( thread_self(Me),
+          helper_pid(Pid),
+          thread_create(( error_of(nxt_battery(b, _), F, _),
+                          thread_send_message(Me, said(F)) ),
+                        Thread),
+          peer_received(Peer, '000b'),
+          process_kill(Pid, kill),
+          thread_get_message(Me, said(E), [timeout(20)]),
+          thread_join(Thread, _),
+          peer_command(Peer, 'answer 020b00401f'),
+          nxt_battery(b, MilliVolts),
+          helper_pid(Other) )),
     assertion(MilliVolts == 8000),
     assertion(Other \== Pid).
 test(killed_while_idle, MilliVolts == 8000) :-
-    with_peer(Peer, Port,
-              connected(b, Port, [],
-                        ( helper_pid(Pid),
-                          process_kill(Pid, kill),
-                          wait_until(\+ helper_pid(_), 20),
-                          wait_until(answers(Peer, MilliVolts), 60)
-                        ))).
+    with_peer(b, [], Peer,
+        ( helper_pid(Pid),
+          process_kill(Pid, kill),
+          wait_until(\+ helper_pid(_), 20),
+          wait_until(answers(Peer, MilliVolts), 60) )).
 test(stuck, E == nxt_error(helper_died(stuck), b)) :-
-    with_peer(Peer, Port,
-              connected(b, Port, [deadline(0.2)],
-                        ( helper_pid(Pid),
-                          process_kill(Pid, stop),
-                          error_of(nxt_battery(b, _), E, _),
-                          wait_until(\+ helper_pid(Pid), 20),
-                          wait_until(answers(Peer, MilliVolts), 60)
-                        ))),
+    with_peer(b, [deadline(0.2)], Peer,
+        ( helper_pid(Pid),
+          process_kill(Pid, stop),
+          error_of(nxt_battery(b, _), E, _),
+          wait_until(\+ helper_pid(Pid), 20),
+          wait_until(answers(Peer, MilliVolts), 60) )),
     assertion(MilliVolts == 8000).
 
 %   A late answer is dropped.
@@ -281,25 +261,18 @@ prolog_dies(Brick, Port) :-
 :- begin_tests(concurrent_nxt_calls).
 
 test(calls_are_serialized, Heard == [ '000b', '000b', '000b', '000b' ]) :-
-    with_peer(Peer, Port,
-              connected(b, Port, [deadline(30)],
-                        ( forall(between(1, 4, _),
-                                 peer_command(Peer, 'late 0.05 020b00401f')),
-                          threads(4, nxt_battery(b, 8000)),
-                          numlist(1, 4, Ns),
-                          maplist(hear(Peer), Ns, Heard)
-                        ))).
+    with_peer(b, [deadline(30)], Peer,
+        ( forall(between(1, 4, _), peer_command(Peer, 'late 0.05 020b00401f')),
+          threads(4, nxt_battery(b, 8000)),
+          numlist(1, 4, Ns),
+          maplist(hear(Peer), Ns, Heard) )).
 test(answers_are_not_mixed_up) :-
-    with_brick(Brick, Port,
-               connected(b, Port, [deadline(30)],
-                         ( brick_ask(Brick, 'set 4 99', ok),
-                           brick_ask(Brick, 'set 1 1', ok),
-                           threads([ many(nxt_ultrasonic(b, 4, 99)),
-                                     many(nxt_touch(b, 1, true)),
-                                     many(nxt_tacho(b, a, 0)),
-                                     many(nxt_file_exists(b, 'Demo.rxe'))
-                                   ])
-                         ))).
+    with_brick(b, [deadline(30)], Brick,
+        ( brick_ask(Brick, 'set 4 99', ok),
+          brick_ask(Brick, 'set 1 1', ok),
+          threads([ many(nxt_ultrasonic(b, 4, 99)), many(nxt_touch(b, 1, true)),
+                    many(nxt_tacho(b, a, 0)),
+                    many(nxt_file_exists(b, 'Demo.rxe')) ]) )).
 test(two_bricks_at_once) :-
     with_peer(Slow, Port1,
               with_peer(Fast, Port2,
@@ -308,10 +281,9 @@ test(two_bricks_at_once) :-
                                             at_once(Slow, Fast))))).
 
 test(threads_are_named_after_their_brick, Count == 2) :-
-    with_brick(_, Port,
-               connected(b, Port, [deadline(30)],
-                         ( nxt_battery(b, _),
-                           aggregate_all(count, thread_of(b), Count) ))).
+    with_brick(b, [deadline(30)], _,
+        ( nxt_battery(b, _),
+          aggregate_all(count, thread_of(b), Count) )).
 
 thread_of(Brick) :-
     atomic_list_concat([typhon_nxt_, Brick, '_'], Start),
@@ -357,29 +329,22 @@ threads(Goals) :-
 :- begin_tests(nxt_agents).
 
 test(services, Outcome-MilliVolts == done-[8000]) :-
-    with_peer(Peer, Port,
-              connected(b, Port, [],
-                        ( peer_command(Peer, 'answer 020b00401f'),
-                          with_hosts([alpha-[services(
-                                               library(typhon/nxt))]],
-                                     ( create([ (main :- nxt_battery(b, V),
-                                                 leave(volts(V))) ],
-                                            Agent),
-                                       joined(Agent, Outcome),
-                                       tuples_of(alpha, MilliVolts) ))
-                        ))).
+    with_peer(b, [], Peer,
+        ( peer_command(Peer, 'answer 020b00401f'),
+          with_hosts([alpha-[services(library(typhon/nxt))]],
+                     ( create([ (main :- nxt_battery(b, V), leave(volts(V))) ],
+                              Agent),
+                       joined(Agent, Outcome),
+                       tuples_of(alpha, MilliVolts) )) )).
 test(agent_gets_the_error,
      Errors == [timeout_error(nxt('GETBATTERYLEVEL'), b)]) :-
-    with_peer(_, Port,
-              connected(b, Port, [deadline(2)],
-                        with_hosts([alpha-[services(library(typhon/nxt))]],
-                                   ( create([ (main :-
-                                                 catch(nxt_battery(b, _),
-                                                       error(E, _), true),
-                                                 leave(volts(E))) ],
-                                            Agent),
-                                     joined(Agent, _),
-                                     tuples_of(alpha, Errors) )))).
+    with_peer(b, [deadline(2)], _,
+        with_hosts([alpha-[services(library(typhon/nxt))]],
+                   ( create([ ( main :- catch(nxt_battery(b, _), error(E, _),
+                                              true),
+                                leave(volts(E)) ) ],
+                            Agent),
+                     joined(Agent, _), tuples_of(alpha, Errors) ))).
 
 test(consulted, Outcome-Values == done-[near]) :-
     with_brick(Brick, Port,

@@ -20,13 +20,17 @@ itself.
 functions(File) :-
     project_file('test/lib/python_functions.py', File).
 
-%   with_python(+Options, :Goal): alpha has the functions.
+%   with_python(+Options, :Goal), or with_python(+Hosts, +Options, :Goal): alpha
+%   has the functions.
 
-:- meta_predicate with_python(+, 0).
+:- meta_predicate with_python(+, 0), with_python(+, +, 0).
 
 with_python(Options, Goal) :-
+    with_python([alpha], Options, Goal).
+
+with_python(Hosts, Options, Goal) :-
     functions(File),
-    with_hosts([alpha],
+    with_hosts(Hosts,
                ( python_start(alpha, File, Options),
                  call(Goal) )).
 
@@ -144,10 +148,8 @@ test(only_public_functions_of_the_file_are_callable, Known == []) :-
                                           named/2, 'MET'/1, sleep/2]),
                               known(PI) ), Known)).
 test(functions_are_unknown_on_other_hosts, E == none) :-
-    functions(File),
-    with_hosts([alpha, beta],
-               ( python_start(alpha, File, []),
-                 host_property(beta, place(Place)),
+    with_python([alpha, beta], [],
+               ( host_property(beta, place(Place)),
                  ( predicate_property(Place:echo(_, _), defined) -> E = known
                  ; E = none ) )).
 test(several_files_share_a_process, [A,B] == [1,2]) :-
@@ -279,10 +281,8 @@ test(stuck) :-
                             wait_until(again, 30) ), _)),
     assertion(E == helper_died(stuck, python(alpha))).
 test(stopped_during_a_call, E == closed) :-
-    functions(File),
-    with_hosts([alpha],
-               ( python_start(alpha, File, []),
-                 thread_self(Me),
+    with_python([alpha], [],
+               ( thread_self(Me),
                  thread_create(( error_of(nap(20, _), F),
                                  thread_send_message(Me, f(F)) ), Thread),
                  remote(alpha, echo(1, 1)),
@@ -292,10 +292,8 @@ test(stopped_during_a_call, E == closed) :-
                  thread_join(Thread) )),
     ( F = existence_error(helper, _) -> E = closed ; E = F ).
 test(host_stops_during_a_call, Outcome == disposed) :-
-    functions(File),
-    with_hosts([alpha, beta],
-               ( python_start(alpha, File, [timeout(30)]),
-                 create([ (main :- nap(30, _)) ], Agent, [host(alpha)]),
+    with_python([alpha, beta], [timeout(30)],
+               ( create([ (main :- nap(30, _)) ], Agent, [host(alpha)]),
                  wait_until(waits, 10),
                  host_stop(alpha),
                  joined(Agent, Outcome) )).
@@ -380,10 +378,8 @@ test(message_to_no_agent, R == 1) :-
     with_python([], ( remote(alpha, post_to(missing, hello, null)),
                       remote(alpha, echo(1, R)) )).
 test(moved_agent_is_not_followed, Mail == []) :-
-    functions(File),
-    with_hosts([alpha, beta],
-               ( python_start(alpha, File, []),
-                 create([ (main :- move(beta), receive(_-go)) ], A,
+    with_python([alpha, beta], [],
+               ( create([ (main :- move(beta), receive(_-go)) ], A,
                         [host(alpha)]),
                  address(beta, Beta),
                  wait_until(agent_property(A, host(Beta)), 10),
@@ -391,10 +387,8 @@ test(moved_agent_is_not_followed, Mail == []) :-
                  remote(alpha, post_to(A, hello, null)),
                  agent_property(A, mailbox(Mail)) )).
 test(dropped_messages_of_an_agent_that_left_are_forgotten, Gaps == 0) :-
-    functions(File),
-    with_hosts([alpha, beta],
-               ( python_start(alpha, File, [queue(2)]),
-                 create([ (main :- post(9, _), receive(_-go), move(beta),
+    with_python([alpha, beta], [queue(2)],
+               ( create([ (main :- post(9, _), receive(_-go), move(beta),
                                    receive(_-never)) ], A,
                         [host(alpha)]),
                  wait_until(( state_size(typhon_inbox, Count), Count > 0 ), 10),
