@@ -33,11 +33,18 @@ stop_shared :-
     retract(shared(Broker)),
     broker_stop(Broker).
 
-:- meta_predicate at_broker(+, 0).
+:- meta_predicate at_broker(+, 0), on_hosts(+, -, 0).
 
 at_broker(Options, Goal) :-
     shared(Broker),
     no_leaks(with_mqtt(Broker, Options, Goal)).
+
+%   on_hosts(+Hosts, -URL, :Goal): alpha is connected; messages are not printed.
+
+on_hosts(Hosts, URL, Goal) :-
+    shared(Broker),
+    broker_url(Broker, URL),
+    capturing(with_hosts(Hosts, ( mqtt_start(alpha, URL, []), Goal )), _).
 
 %   reader(+Goals, +Count, -Agent): an agent that calls Goals, reports that it
 %   is ready, and whose result are the messages that it receives.
@@ -65,6 +72,9 @@ took_one(Agent) :-
 got(Agent, Messages) :-
     joined(Agent, done),
     agent_result(Agent, Messages, 5).
+
+payloads(Ms, Ps) :-
+    findall(P, member(message(_, P, _), Ms), Ps).
 
 sends(Topic, Text) :-
     shared(Broker),
@@ -306,9 +316,6 @@ got_count(Agent, Count) :-
     got(Agent, Ms),
     length(Ms, Count).
 
-payloads(Ms, Ps) :-
-    findall(P, member(message(_, P, _), Ms), Ps).
-
 plain(Dict0, Dict) :-
     is_dict(Dict0),
     !,
@@ -322,13 +329,11 @@ plain(Value, Value).
 
 test(leaving_agent_is_unsubscribed, Mail == []) :-
     shared(Broker),
-    broker_url(Broker, URL),
-    quietly(with_hosts([alpha,beta],
-                       ( mqtt_start(alpha, URL, []),
-                         traveller(beta, A),
-                         wait_until(unsubscribed(Broker, 'leave/me'), 10),
-                         sends('leave/me', m),
-                         agent_property(A, mailbox(Mail)) ))).
+    on_hosts([alpha,beta], _,
+        ( traveller(beta, A),
+          wait_until(unsubscribed(Broker, 'leave/me'), 10),
+          sends('leave/me', m),
+          agent_property(A, mailbox(Mail)) )).
 test(agent_leaving_for_another_process_is_unsubscribed) :-
     shared(Broker),
     broker_url(Broker, URL),
@@ -350,16 +355,14 @@ test(remaining_subscriber_gets_the_message,
      Ms == [message('stay/x', "m",
                     [qos(0),retain(false)])]) :-
     shared(Broker),
-    broker_url(Broker, URL),
-    quietly(with_hosts([alpha,beta-[capacity(0)]],
-                       ( mqtt_start(alpha, URL, []),
-                         address(beta, Beta),
-                         reader(( subscribe('stay/x'),
-                                  catch(move(Beta), error(_, _), true) ),
-                                1, A),
-                         wait_until(again(Broker), 10),
-                         sends('stay/x', m),
-                         got(A, Ms) ))).
+    on_hosts([alpha,beta-[capacity(0)]], _,
+        ( address(beta, Beta),
+          reader(( subscribe('stay/x'),
+                   catch(move(Beta), error(_, _), true) ),
+                 1, A),
+          wait_until(again(Broker), 10),
+          sends('stay/x', m),
+          got(A, Ms) )).
 test(ended_agent_is_unsubscribed) :-
     shared(Broker),
     at_broker([], ( create([ (main :- subscribe('the/end')) ], A),
@@ -379,22 +382,16 @@ test(other_agents_are_still_subscribed, Count == 1) :-
                     got(A, Ms),
                     length(Ms, Count) )).
 test(other_hosts_have_no_connection, Outcome = raised(E)) :-
-    shared(Broker),
-    broker_url(Broker, URL),
-    quietly(with_hosts([alpha,beta],
-                       ( mqtt_start(alpha, URL, []),
-                         create([ (main :- publish(a, b)) ], A, [host(beta)]),
-                         joined(A, Outcome) ))),
+    on_hosts([alpha,beta], _,
+        ( create([ (main :- publish(a, b)) ], A, [host(beta)]),
+          joined(A, Outcome) )),
     assertion(E = error(existence_error(procedure, _), _)).
 test(two_hosts_have_two_connections, Ms == ["m"]) :-
-    shared(Broker),
-    broker_url(Broker, URL),
-    quietly(with_hosts([alpha,beta],
-                       ( mqtt_start(alpha, URL, []),
-                         mqtt_start(beta, URL, []),
-                         reader(subscribe('hop/x'), 1, A),
-                         remote(beta, publish('hop/x', m)),
-                         got(A, Ms0) ))),
+    on_hosts([alpha,beta], URL,
+        ( mqtt_start(beta, URL, []),
+          reader(subscribe('hop/x'), 1, A),
+          remote(beta, publish('hop/x', m)),
+          got(A, Ms0) )),
     findall(P, member(message(_, P, _), Ms0), Ms).
 
 :- meta_predicate quietly(0).
@@ -598,7 +595,7 @@ test(helper_dies, Ps == ["m"]) :-
                             wait_until(subscribed_twice(B, k), 10),
                             client_publishes(B, k, ['-m', m]),
                             got(A, Ms) ))),
-    findall(P, member(message(_, P, _), Ms), Ps).
+    payloads(Ms, Ps).
 test(kept_session, Ps == ["1","2"]) :-
     with_broker([], B, kept_session(B, Ps)).
 test(discarded_session, Ms == []) :-
@@ -696,7 +693,7 @@ retained_anew(B, Ps) :-
                 broker_restart(B),
                 client_publishes(B, r, ['-m', 2, '-r', '-q', 1]),
                 got(A, Ms) )),
-    findall(P, member(message(_, P, _), Ms), Ps).
+    payloads(Ms, Ps).
 
 came(Payload) :-
     remote(alpha, sense(mqtt-message(s, Payload, _))).
@@ -710,7 +707,7 @@ not_there_yet(B, Ps) :-
                 wait_until(up, 20),
                 remote(alpha, publish(s, 2)),
                 got(A, Ms) )),
-    findall(P, member(message(_, P, _), Ms), Ps).
+    payloads(Ms, Ps).
 
 subscribed_twice(B, Filter) :-
     broker_log(B, Text),
@@ -728,7 +725,7 @@ kept_session(B, Ps) :-
     client_publishes(B, s, ['-m', 2, '-q', 1]),
     with_mqtt(B, Options, ( reader(subscribe(s, [qos(1)]), 2, C),
                             got(C, Ms) )),
-    findall(P, member(message(_, P, _), Ms), Ps).
+    payloads(Ms, Ps).
 
 password(E, R, Dir) :-
     directory_file_path(Dir, passwords, File),
