@@ -1,7 +1,6 @@
 :- module(test_learning_maze, []).
 :- use_module('../../lib/common').
 :- use_module(library(plunit)).
-:- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [foldl/4]).
 :- use_module(library(assoc),
               [assoc_to_keys/2, empty_assoc/1, get_assoc/3, put_assoc/4]).
