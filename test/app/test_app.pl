@@ -115,52 +115,46 @@ stopped_reading(App, Text, Dir) :-
 
 :- end_tests(app_help).
 
-:- begin_tests(app_errors).
+%   wrong(Name, Args, Text, Hint): the error of a command.
 
-test(unknown_command) :-
-    typhon_error([hots], "no command hots (did you mean host or hosts?)").
-test(too_few_arguments) :-
-    typhon_error([host], "host takes NAME").
-test(unknown_option) :-
-    typhon_error([host, alpha, '--prot', 7],
-                 "host has no option --prot (did you mean port?)"),
-    typhon_error([network, 'ring(2)', '--hop-tme=x'],
-                 "(did you mean hop_time?)").
-test(wrong_type) :-
-    typhon_error([host, alpha, '--port', many], "many").
-test(missing_option) :-
-    typhon_error([create, 'agents(x)'], "--host").
-test(not_a_term) :-
-    typhon_error([network, 'grid(2,'], "grid(2,").
-test(not_a_topology) :-
-    typhon_error([network, 'blob(2)'],
-                 "blob(2)", "network --help lists the shapes").
-test(no_such_file) :-
-    typhon_error([host, alpha, '--consult', '/no/such.pl'], "/no/such.pl").
-test(no_process_at_the_address) :-
+wrong(unknown_command, [hots], "no command hots (did you mean host or hosts?)",
+      "").
+wrong(too_few_arguments, [host], "host takes NAME", "").
+wrong(unknown_option, [host, alpha, '--prot', 7],
+      "host has no option --prot (did you mean port?)", "").
+wrong(unknown_option, [network, 'ring(2)', '--hop-tme=x'],
+      "(did you mean hop_time?)", "").
+wrong(unknown_option, [host, alpha, '-p', 3], "host has no option -p", "").
+wrong(wrong_type, [host, alpha, '--port', many], "many",
+      "an integer of at least 0").
+wrong(no_value, [host, alpha, '--port'], "--port needs a value", "").
+wrong(missing_option, [create, 'agents(x)'], "--host", "").
+wrong(not_a_term, [network, 'grid(2,'], "grid(2,", "").
+wrong(not_a_term, [create, x, '--host', a, '--fact', 'p('],
+      "not a Prolog term: p(", "").
+wrong(not_a_topology, [network, 'blob(2)'], "blob(2)",
+      "network --help lists the shapes").
+wrong(no_such_file, [host, alpha, '--consult', '/no/such.pl'], "/no/such.pl",
+      "").
+wrong(no_process_at_the_address, [hosts, '--host', Address], Advice, "") :-
     free_port(Port),
     format(atom(Address), 'alpha@127.0.0.1:~d', [Port]),
-    atom_concat('diagnose ', Address, Advice),
-    typhon_error([hosts, '--host', Address], Advice).
-test(options_without_value_or_of_another_type) :-
-    typhon_error([host, alpha, '--port'], "--port needs a value"),
-    typhon_error([host, alpha, '--port', x], "an integer of at least 0"),
-    typhon_error([host, alpha, '-p', 3], "host has no option -p"),
-    typhon_error([create, x, '--host', a, '--fact', 'p('],
-                 "not a Prolog term: p(").
-test(command_without_arguments) :-
-    typhon_error([agents, x], "agents takes options only").
-test(options_may_precede_the_command) :-
-    typhon_error(['--host', alpha, agents], "There is no host alpha"),
-    typhon_error(['--host=alpha', agents], "There is no host alpha"),
-    typhon_error(['--no-read-only', page], "page needs --host").
-test(text_without_quotes, forall(member(Words-Proposed,
-                                        [ ['Hello']-"\"'Hello'\"",
-                                          ['it is']-"\"'it is'\"",
-                                          [it, is]-"\"'it is'\"" ]))) :-
-    typhon_error([send, 'bob@alpha@127.0.0.1:9'|Words], Proposed).
-test(not_an_id) :-
-    typhon_error([dispose, bob], "with --host ADDRESS a name is enough").
+    atom_concat('diagnose ', Address, Advice).
+wrong(command_without_arguments, [agents, x], "agents takes options only", "").
+wrong(options_may_precede_the_command, Args, Text, "") :-
+    member(Args-Text, [ ['--host', alpha, agents]-"There is no host alpha",
+                        ['--host=alpha', agents]-"There is no host alpha",
+                        ['--no-read-only', page]-"page needs --host" ]).
+wrong(text_without_quotes, [send, 'bob@alpha@127.0.0.1:9'|Words], Proposed,
+      "") :-
+    member(Words-Proposed, [ ['Hello']-"\"'Hello'\"", ['it is']-"\"'it is'\"",
+                             [it, is]-"\"'it is'\"" ]).
+wrong(not_an_id, [dispose, bob], "with --host ADDRESS a name is enough", "").
+
+:- begin_tests(app_errors).
+
+test(command_is_wrong, [forall(wrong(_, Args, Text, Hint))]) :-
+    typhon_error(Args, Text, Hint).
 
 :- end_tests(app_errors).
 
@@ -439,52 +433,45 @@ test(version_is_that_of_the_pack) :-
 
 :- end_tests(app_log).
 
+%   diagnosed(+Args, -Status, +Patterns): the output has lines of Patterns.
+
+diagnosed(Args, Status, Patterns) :-
+    typhon([diagnose|Args], Status, Out, _),
+    have_lines(Out, Patterns).
+
+have_lines(Out, Patterns) :-
+    split_string(Out, "\n", "\n", Lines),
+    forall(member(Pattern, Patterns), assertion(has_line(Lines, Pattern))).
+
 :- begin_tests(app_diagnose).
 
 test(works) :-
     with_typhon([host, alpha], _, Address,
-                ( typhon_lines([diagnose, Address], Lines),
-                  assertion(has_line(Lines, '*ok*authentication*codec*'))
-                )).
+        diagnosed([Address], exit(0), ['*ok*authentication*codec*'])).
 test(no_process_at_the_address, Status == exit(1)) :-
     free_port(Port),
     format(atom(Address), 'alpha@127.0.0.1:~d', [Port]),
-    typhon([diagnose, Address], Status, Out, _),
-    split_string(Out, "\n", "\n", Lines),
-    assertion(has_line(Lines, '*ok*cookie*')),
-    assertion(has_line(Lines, '*FAIL*connection*')).
+    diagnosed([Address], Status, ['*ok*cookie*', '*FAIL*connection*']).
 test(other_host_at_the_address, Status == exit(1)) :-
     with_typhon([host, alpha], _, Address,
-                ( atom_concat(alpha, Endpoint, Address),
-                  atom_concat(beta, Endpoint, There),
-                  typhon([diagnose, There], Status, Out, _),
-                  split_string(Out, "\n", "\n", Lines),
-                  assertion(has_line(Lines, '*ok*authentication*')),
-                  assertion(has_line(Lines,
-                                     '*FAIL*host*no host beta*alpha*'))
-                )).
+        ( atom_concat(alpha, Endpoint, Address),
+          atom_concat(beta, Endpoint, There),
+          diagnosed([There], Status, [ '*ok*authentication*',
+                                       '*FAIL*host*no host beta*alpha*' ]) )).
 test(other_cookie, Status == exit(1)) :-
     with_typhon([host, alpha], _, Address,
-                ( typhon_args([diagnose, Address], Args),
-                  run_swipl(Args, [environment(['TYPHON_COOKIE'=other])],
-                            Status, Out, _),
-                  split_string(Out, "\n", "\n", Lines),
-                  assertion(has_line(Lines, '*FAIL*authentication*'))
-                )).
-
-test(python) :-
-    typhon_lines([diagnose, python], Lines),
-    assertion(has_line(Lines, '*ok*function*hello agents*')).
-test(mqtt) :-
-    typhon([diagnose, mqtt, 'mqtt://127.0.0.1:1'], Status, Out, _),
-    split_string(Out, "\n", "\n", Lines),
-    assertion(Status == exit(1)),
-    assertion(( has_line(Lines, '*FAIL*broker*')
-              ; has_line(Lines, '*FAIL*paho*') )).
-test(ros) :-
-    typhon([diagnose, ros, 'ws://127.0.0.1:1/'], Status, Out, _),
-    split_string(Out, "\n", "\n", Lines),
-    assertion(Status == exit(1)),
-    assertion(has_line(Lines, '*FAIL*ros*')).
+        ( typhon_args([diagnose, Address], Args),
+          run_swipl(Args, [environment(['TYPHON_COOKIE'=other])], Status, Out,
+                    _),
+          have_lines(Out, ['*FAIL*authentication*']) )).
+test(python, Status == exit(0)) :-
+    diagnosed([python], Status, ['*ok*function*hello agents*']).
+test(bridge_without_a_peer,
+     [ forall(member(Args-Pattern, [ [mqtt, 'mqtt://127.0.0.1:1']
+                                     -'*FAIL*{broker,paho}*',
+                                     [ros, 'ws://127.0.0.1:1/']-'*FAIL*ros*'
+                                   ])),
+       Status == exit(1) ]) :-
+    diagnosed(Args, Status, [Pattern]).
 
 :- end_tests(app_diagnose).
