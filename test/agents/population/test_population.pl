@@ -30,7 +30,8 @@ equation(equation_6_2, clones(Rounding, Pressure, Resource, 100, C), C, Is) :-
     member(Rounding-Pressure-Resource-Is,
            [ round-3-10-0, floor-3-10-0, round-3-25.2-1, floor-3-25.2-0,
              round-1-50-1, floor-1-50-0, round-3-100-3, floor-3-100-3,
-             round-0-100-0, floor-0-100-0, round-3-0-0, floor-2-50-1 ]).
+             round-0-100-0, floor-0-100-0, round-3-0-0, floor-2-50-1,
+             round-2-24.9-0, floor-2-49.9-0 ]).
 equation(equation_6_3, conferred(35, 2, 5, R, C), R-C, 25-2).
 equation(given_resource_is_conserved, conferred(20, 1, 10, R, C), R-C, 10-1).
 equation(too_little_makes_no_clone, conferred(19.9, 1, 10, R, C), R-C, 19.9-0).
