@@ -3,7 +3,8 @@
 % The results of many runs: medians, shares of seeds, tables.
 
 :- use_module('../../lib/common').
-:- use_module('../../lib/study_files', [study_messages/2, with_study/2, with_study/3]).
+:- use_module('../../lib/study_files',
+              [study_messages/2, with_study/2, with_study/3]).
 :- use_module('../../../experiments/engine/cases', [study_cases/3]).
 :- use_module('../../../experiments/engine/cross_check', [cross_check/4]).
 :- use_module('../../../experiments/engine/numbers').
@@ -98,34 +99,56 @@ not_first(Seed, Case) :-
 some_of(Odds, _, _) :-
     maybe(Odds).
 
+%   shares(Name, Given, Made, Shares): of the claims about ways, in their order.
+
+shares(all_runs, [], all, [2/2, 2/2, 2/2, 2/2, 2/2, 2/2]).
+shares(no_run, Given, none, [0/0, 0/0, 0/0, 0/0, 0/0, 0/0]) :-
+    member(Given, [[], [way-fast], [way-odd]]).
+shares(a_given_way_says_nothing_of_others, [way-fast], all,
+       [0/0, 0/0, 0/0, 0/0, 0/0, 0/0]).
+shares(two_given_ways_say_nothing_of_the_third, [way-[fast,slow]], all,
+       [0/0, 2/2, 2/2, 0/0, 0/0, 0/0]).
+shares(a_given_size_has_no_trend, [size-2], all, [_, 0/0, 0/0, 0/0, _, _]).
+shares(failed_runs_of_a_seed, [], not_first, [1/1, 2/2, 2/2, 1/1, 1/1, 2/2]).
+
+%   holds(Name, Values, Claim, Share): Share is Held-Of-OfMedians.
+
+holds(shares_of_seeds, Values, "rises", 2-3-true) :-
+    three(Values).
+holds(claims_are_checked_per_seed,
+      [values(1, 30, 40), values(2, 31, 41), values(3, 60, 20)], "small",
+      0-3-false).
+holds(claims_are_checked_per_seed,
+      [values(1, 30, 31), values(2, 2, 3), values(3, 60, 20)], "rises",
+      2-3-false).
+holds(seeds_with_missing_cases_are_not_known,
+      [values(1, 10, 20), values(2, 12, missing)], "rises", 1-1-unknown).
+holds(a_run_may_decide_without_the_others,
+      [values(1, 10, 20), values(2, 30, missing)], "small", 1-2-unknown).
+holds(with_one_of_two_cases_nothing_rises,
+      [values(1, 10, missing), values(2, 10, missing), values(3, 10, missing)],
+      "rises", 0-0-unknown).
+holds(without_runs_nothing_is_known, [], "rises", 0-0-unknown).
+holds(unmeasured_value_is_unknown, Values, "never measured", 0-0-unknown) :-
+    three(Values).
+
 :- begin_tests(outcome).
 
-test(all_runs, Shares == [ "fast is least"-2/2, "slow rises"-2/2,
-                           "slow by itself"-2/2, "all rise"-2/2,
-                           "no way is great"-2/2, "plain is not slow"-2/2 ]) :-
-    ways_shares([], all, Shares).
-test(no_run, [forall(member(Given, [[], [way-fast], [way-odd]]))]) :-
-    ways_shares(Given, none, Shares),
-    assertion(forall(member(_-Share, Shares), Share == 0/0)).
-test(a_given_way_says_nothing_of_others,
-     Shares == [ "fast is least"-0/0, "slow rises"-0/0, "slow by itself"-0/0,
-                 "all rise"-0/0, "no way is great"-0/0,
-                 "plain is not slow"-0/0 ]) :-
-    ways_shares([way-fast], all, Shares).
-test(two_given_ways_say_nothing_of_the_third,
-     Shares == [ "fast is least"-0/0, "slow rises"-2/2, "slow by itself"-2/2,
-                 "all rise"-0/0, "no way is great"-0/0,
-                 "plain is not slow"-0/0 ]) :-
-    ways_shares([way-[fast,slow]], all, Shares).
-test(a_given_size_has_no_trend) :-
-    ways_shares([size-2], all, Shares),
-    forall(member(Text, ["slow rises", "slow by itself", "all rise"]),
-           assertion(memberchk(Text-0/0, Shares))).
-test(failed_runs_of_a_seed,
-     Shares == [ "fast is least"-1/1, "slow rises"-2/2, "slow by itself"-2/2,
-                 "all rise"-1/1, "no way is great"-1/1,
-                 "plain is not slow"-2/2 ]) :-
-    ways_shares([], not_first, Shares).
+test(shares_of_claims, [ forall(shares(_, Given, Made, Expected)),
+                         Found = Expected ]) :-
+    ways_shares(Given, Made, Shares),
+    findall(Share, member(_-Share, Shares), Found).
+test(claim_holds_in_seeds, [ forall(holds(_, Values, Text, Expected)),
+                             Share == Expected ]) :-
+    quietly_outcome_of(Values, Outcome),
+    claim(Outcome, Text, Share).
+test(missing_runs_and_seeds_are_counted, Missing-Seeds-Rows == 1-2-2) :-
+    quietly_outcome_of([values(1, 10, 20), values(2, 12, missing)], Outcome),
+    _{missing:Missing, seeds:Seeds} :< Outcome,
+    length(Outcome.rows, Rows).
+test(without_runs_there_are_no_rows, Rows == []) :-
+    quietly_outcome_of([], Outcome),
+    Rows = Outcome.rows.
 test(fewer_runs_hold_in_no_more_seeds) :-
     ways_shares([], all, All),
     forall(( between(1, 20, _), ways_shares([], some_of(0.7), Some),
@@ -146,42 +169,6 @@ test(measured_in_some_runs_only, Text == '11 (10–12) in 2') :-
                          values(3, none, 1) ], Outcome),
     Outcome.rows = [Row|_],
     spread_text(Row, m, Text).
-test(shares_of_seeds, Share == 2-3-true) :-
-    three(Values),
-    quietly_outcome_of(Values, Outcome),
-    claim(Outcome, "rises", Share).
-test(claims_are_checked_per_seed, Share == 2-3-false) :-
-    quietly_outcome_of([ values(1, 30, 40), values(2, 31, 41),
-                         values(3, 60, 20) ], Outcome),
-    claim(Outcome, "small", Small),
-    assertion(Small == 0-3-false),
-    quietly_outcome_of([ values(1, 30, 31), values(2, 2, 3),
-                         values(3, 60, 20) ], Outcome1),
-    claim(Outcome1, "rises", Share0),
-    assertion(Share0 == 2-3-false),
-    Share = Share0.
-test(seeds_with_missing_cases_are_not_known, Share == 1-1-unknown) :-
-    quietly_outcome_of([ values(1, 10, 20), values(2, 12, missing) ],
-                       Outcome),
-    claim(Outcome, "rises", Share),
-    assertion(Outcome.missing == 1),
-    assertion(Outcome.seeds == 2).
-test(a_run_may_decide_without_the_others, Share == 1-2-unknown) :-
-    quietly_outcome_of([ values(1, 10, 20), values(2, 30, missing) ],
-                       Outcome),
-    claim(Outcome, "small", Share).
-test(with_one_of_two_cases_nothing_rises, Share == 0-0-unknown) :-
-    findall(values(Seed, 10, missing), between(1, 3, Seed), Values),
-    quietly_outcome_of(Values, Outcome),
-    claim(Outcome, "rises", Share).
-test(without_runs_nothing_is_known, Share-Rows == (0-0-unknown)-[]) :-
-    quietly_outcome_of([], Outcome),
-    claim(Outcome, "rises", Share),
-    Rows = Outcome.rows.
-test(unmeasured_value_is_unknown, Share == 0-0-unknown) :-
-    three(Values),
-    quietly_outcome_of(Values, Outcome),
-    claim(Outcome, "never measured", Share).
 test(an_error_is_reported_and_other_claims_are_kept, Share == 0-1-false) :-
     study_messages(outcome_of([values(1, 10, 20)], Outcome), Text),
     assertion(once(sub_string(Text, _, _, _, "Claim \"a mistake\""))),

@@ -88,27 +88,23 @@ text(Out, Name, Text) :-
     directory_file_path(Out, Name, File),
     read_file_to_string(File, Text, [encoding(utf8)]).
 
-data(Name, Text, Out, _) :-
-    text(Out, Name, Text).
-
-has(Name, Parts, Out, _) :-
+has(Name, Parts, Out) :-
     text(Out, Name, Text),
     forall(member(Part, Parts),
            assertion(once(sub_string(Text, _, _, _, Part)))).
 
-said(Text, _, Text).
-
-is_drawn(Name, Out, _) :-
+is_drawn(Name, Out) :-
     forall(member(Extension, [svg, png]),
            ( file_name_extension(Name, Extension, Base),
              directory_file_path(Out, Base, File),
              wait_until(( exists_file(File), size_file(File, Size),
                           Size > 0 ), 30) )).
 
-%   The positions of texts and marks, from the top, and the height.
+%   The texts are inside the picture: the positions of texts and marks, from the
+%   top, are above its height.
 
-inside(Name, Out, Messages) :-
-    is_drawn(two, Out, Messages),
+inside(Name, Out) :-
+    is_drawn(two, Out),
     text(Out, Name, Text),
     findall(Y, ( between_texts(Text, "translate(", ")", XY),
                  split_string(XY, ",", "", [_, Y0]),
@@ -127,14 +123,41 @@ between_texts(Text, Before, After, Between) :-
 gnuplot :-
     absolute_file_name(path(gnuplot), _, [access(execute), file_errors(fail)]).
 
+%   file(Name, File, Text): what the pictures of the study write; part(Name,
+%   File, Parts): parts of it.
+
+file(medians, 'one.dat', "1 12 11 13\n2 22 21 23\n10 102 101 103\n\n\n\c
+1 112 111 113\n2 122 121 123\n10 202 201 203\n\n\n").
+file(printed, 'one-printed.dat', "NaN NaN NaN NaN\n\n\n10 12\n\n\n").
+file(texts_are_placed_side_by_side, 'two.dat',
+     "1 17 11 23\n2 117 111 123\n\n\n").
+file(own_script, 'own.dat', "\"a b\" 1.5\nx 6\n\n\"c d\" 3\n").
+file(pictures_of_a_run_are_copied, 'four.svg', "<svg/>\n").
+
+part(runs, 'one-runs.dat', ["1 11\n1 12\n1 13\n2 21\n"]).
+part(variables, 'one.gnuplot',
+     [ "TITLE = \"One \\\"picture\\\"\"", "panels = 1", "series = 2",
+       "PRINTED = 1", "Log[1] = [1]", "Rules[1] = [\"5\"]",
+       "Panel[1] = [\"What <is> measured\"]",
+       "Series[2] = [\"new one\", \"Old ones\"]",
+       "of\\\\_toys; 3 runs of each: medians, least and greatest\"",
+       "load \"lines.gp\"" ]).
+part(names_of_values_are_texts, 'two.gnuplot',
+     ["XTICS = \"'new one' 1,'Old ones' 2\""]).
+part(caption_names_the_aggregation, 'two.gnuplot',
+     ["least and greatest; over all n\""]).
+part(own_variables, 'three.gnuplot',
+     [ "NAME = \"three\"", "HEIGHT = 200", "X = 1",
+       "array Names[2] = [\"a\", \"b\\\"c\"]", "load \"own.gp\"" ]).
+
 :- begin_tests(study_pictures).
 
-test(medians, Text == "1 12 11 13\n2 22 21 23\n10 102 101 103\n\n\n\c
-1 112 111 113\n2 122 121 123\n10 202 201 203\n\n\n") :-
-    with_pictures(Out, Told, data('one.dat', Text, Out, Told)).
-test(runs, nondet) :-
-    with_pictures(Out, Told, data('one-runs.dat', Text, Out, Told)),
-    sub_string(Text, 0, _, _, "1 11\n1 12\n1 13\n2 21\n").
+test(files_of_pictures, Wrong == []) :-
+    with_pictures(Out, _,
+        ( findall(Name-Text,
+                  ( file(Name, File, Expected), text(Out, File, Text),
+                    Text \== Expected ), Wrong),
+          forall(part(_, File, Parts), has(File, Parts, Out)) )).
 
 %   The case n=2, kind=new_one has no run, the other new ones have one of three.
 
@@ -155,50 +178,19 @@ test(lines_are_not_joined_across_a_case_without_runs,
                   Runs),
           once(study_call(Study, plot(one, Title, Picture))),
           picture(Study, plot(one, Title, Picture), Runs, Dir),
-          has('one.gnuplot', ["0 to 3 runs of each"], Dir, _),
+          has('one.gnuplot', ["0 to 3 runs of each"], Dir),
           text(Dir, 'one.dat', Text) )).
-test(printed, Text == "NaN NaN NaN NaN\n\n\n10 12\n\n\n") :-
-    with_pictures(Out, Told, data('one-printed.dat', Text, Out, Told)).
-test(variables) :-
-    with_pictures(Out, Told, has('one.gnuplot',
-        [ "TITLE = \"One \\\"picture\\\"\"", "panels = 1", "series = 2",
-          "PRINTED = 1", "Log[1] = [1]", "Rules[1] = [\"5\"]",
-          "Panel[1] = [\"What <is> measured\"]",
-          "Series[2] = [\"new one\", \"Old ones\"]",
-          "of\\\\_toys; 3 runs of each: medians, least and greatest\"",
-          "load \"lines.gp\"" ], Out, Told)).
-test(texts_are_placed_side_by_side,
-     Text == "1 17 11 23\n2 117 111 123\n\n\n") :-
-    with_pictures(Out, Told, data('two.dat', Text, Out, Told)).
-test(names_of_values_are_texts) :-
-    with_pictures(Out, Told, has('two.gnuplot',
-                      ["XTICS = \"'new one' 1,'Old ones' 2\""], Out, Told)).
 test(texts_are_drawn_verbatim, Plain == 'a\\_b\\^2\\{\\\\') :-
     plain_text("a_b^2{\\", Plain).
-test(caption_names_the_aggregation) :-
-    with_pictures(Out, Told, has('two.gnuplot',
-                                 ["least and greatest; over all n\""],
-                                 Out, Told)).
-test(own_script, Text == "\"a b\" 1.5\nx 6\n\n\"c d\" 3\n") :-
-    with_pictures(Out, Told, data('own.dat', Text, Out, Told)).
-test(own_variables) :-
-    with_pictures(Out, Told, has('three.gnuplot',
-        [ "NAME = \"three\"", "HEIGHT = 200", "X = 1",
-          "array Names[2] = [\"a\", \"b\\\"c\"]", "load \"own.gp\"" ],
-          Out, Told)).
-test(pictures_of_a_run_are_copied) :-
-    with_pictures(Out, _,
-        ( text(Out, 'four.svg', Text),
-          assertion(Text == "<svg/>\n") )).
 test(impossible_plot_is_reported) :-
-    with_pictures(Out, Told, said(Text, Out, Told)),
+    with_pictures(_, Text, true),
     forall(member(Part, [ "Picture none is not drawn: there are no data",
                           "Picture wrong is not drawn:", "missing/2" ]),
            assertion(once(sub_string(Text, _, _, _, Part)))).
-test(drawn, [condition(gnuplot), forall(member(Name, [one, two, three]))]) :-
-    with_pictures(Out, Told, is_drawn(Name, Out, Told)).
-test(texts_are_inside_the_picture, [condition(gnuplot)]) :-
-    with_pictures(Out, Told, inside('two.svg', Out, Told)).
+test(drawn, [condition(gnuplot)]) :-
+    with_pictures(Out, _,
+        ( forall(member(Name, [one, two, three]), is_drawn(Name, Out)),
+          inside('two.svg', Out) )).
 test(without_gnuplot) :-
     with_study_file(['study(toy, "A toy").'], Dir, File,
                     without_gnuplot(Text, Dir, File)),
