@@ -30,37 +30,29 @@ delta(Reports, Delta) :-
     findall(D, member(_-[delta-D], Orders), Ds),
     sort(Ds, [Delta]).
 
+%   decision(Name, Times, Delta): Delta is decided if leaders with 0.5 report
+%   Times, one list for each leader; the next task is due a spread later.
+
+decision(fitting_step_is_kept, [[[0, 10], [20, 30]]], 0.5).
+decision(halved_when_the_next_task_arrives_with_the_last_host,
+         [[[0, 10], [10, 20]]], 0.25).
+decision(rises_by_a_fifth_at_most, [[[0, 10], [900, 910]]], 0.6).
+decision(falls_to_a_fifth_at_most, [[[0, 900], [1, 901]]], 0.1).
+decision(observer_sees_a_spread_hidden_from_leaders,
+         [[[0, 1], [10, 11]], [[9, 10], [19, 20]]], 0.25).
+decision(one_task_changes_nothing, [[[0, 10]]], 0.5).
+decision(one_host_with_one_task_at_a_time, [[[0], [10]]], 0.6).
+
 :- begin_tests(steps, [setup(algorithm(steps, payloads(hierarchy/steps), []))]).
 
-%   A spread of 10 s, and the next task as long after it.
-
-test(fitting_step_is_kept, true(abs(Delta - 0.5) < 1.0e-9)) :-
-    report(0.5, [[0, 10], [20, 30]], Report),
-    delta([a-Report], Delta).
-test(halved_when_the_next_task_arrives_with_the_last_host,
-     true(abs(Delta - 0.25) < 1.0e-9)) :-
-    report(0.5, [[0, 10], [10, 20]], Report),
-    delta([a-Report], Delta).
-test(rises_by_a_fifth_at_most, true(abs(Delta - 0.6) < 1.0e-9)) :-
-    report(0.5, [[0, 10], [900, 910]], Report),
-    delta([a-Report], Delta).
-test(falls_to_a_fifth_at_most, true(abs(Delta - 0.1) < 1.0e-9)) :-
-    report(0.5, [[0, 900], [1, 901]], Report),
-    delta([a-Report], Delta).
-test(observer_sees_a_spread_hidden_from_leaders,
-     true(abs(Delta - 0.25) < 1.0e-9)) :-
-    report(0.5, [[0, 1], [10, 11]], A),
-    report(0.5, [[9, 10], [19, 20]], B),
-    delta([a-A, b-B], Delta).
+test(step_follows_the_spread, [ forall(decision(_, TimesOfLeaders, Expected)),
+                                true(abs(Delta - Expected) < 1.0e-9) ]) :-
+    findall(N-Report, ( nth1(N, TimesOfLeaders, Times),
+                        report(0.5, Times, Report) ), Reports),
+    delta(Reports, Delta).
 test(tasks_are_in_order_of_time, true(abs(Delta - 0.5) < 1.0e-9)) :-
     Facts = [done(sow, 0), done(sow, 10), done(reap, 20), done(reap, 30)],
     delta([a-report([delta-0.5], [], Facts)], Delta).
-test(one_task_changes_nothing, Delta =:= 0.5) :-
-    report(0.5, [[0, 10]], Report),
-    delta([a-Report], Delta).
-test(one_host_with_one_task_at_a_time, true(abs(Delta - 0.6) < 1.0e-9)) :-
-    report(0.5, [[0], [10]], Report),
-    delta([a-Report], Delta).
 
 :- end_tests(steps).
 
@@ -74,14 +66,14 @@ workers(Parts, Counts) :-
 
 :- begin_tests(crews, [setup(algorithm(crews, payloads(hierarchy/crews), []))]).
 
-test(shares_follow_the_work, Counts == [6, 3, 3]) :-
-    workers([4-200, 4-100, 4-100], Counts).
-test(work_is_that_of_all_workers, Counts == [6, 2]) :-
-    workers([6-100, 2-100], Counts).
-test(part_keeps_half_of_an_equal_share, Counts == [8, 2, 2]) :-
-    workers([4-900, 4-10, 4-10], Counts).
-test(last_part_keeps_half_of_an_equal_share, Counts == [2, 2, 8]) :-
-    workers([4-10, 4-10, 4-900], Counts).
+test(shares_follow_the_work,
+     [ forall(member(Parts-Shares,
+                     [ [4-200, 4-100, 4-100]-[6, 3, 3],
+                       [6-100, 2-100]-[6, 2],   % the work is that of all
+                       [4-900, 4-10, 4-10]-[8, 2, 2], % half of an equal share
+                       [4-10, 4-10, 4-900]-[2, 2, 8], [4-200]-[4] ])),
+       Counts == Shares ]) :-
+    workers(Parts, Counts).
 test(number_of_workers_is_constant, true(Odd == [])) :-
     findall(Parts,
             ( between(1, 100, _), length(Parts, 5), maplist(any_part, Parts),
@@ -90,8 +82,6 @@ test(number_of_workers_is_constant, true(Odd == [])) :-
               sum_list(Before, Sum),
               \+ sum_list(Counts, Sum) ),
             Odd).
-test(single_leader_keeps_its_workers, Counts == [4]) :-
-    workers([4-200], Counts).
 
 any_part(Count-Seconds) :-
     random_between(1, 9, Count),

@@ -134,17 +134,13 @@ test(restart_is_retried_when_capacity_is_free) :-
 
 test(children_start_in_order_and_end_in_reverse,
      [ Started-Ended == [a,b,c]-[c,b,a] ]) :-
-    Children = [a-[], b-[], c-[]],
-    with_hosts([alpha],
-        capturing(
-            ( supervised(Children, [], S),
-              children(S, Children, Ids),
-              retractall(test_supervisor:ended(_)),
-              setup_call_cleanup(
-                  wrap_predicate(typhon_home:home_ended(Id, _, _, _), noted, W,
-                                 ( assertz(test_supervisor:ended(Id)), W )),
-                  ( agent_send(S, stop), joined(S, done) ),
-                  unwrap_predicate(typhon_home:home_ended/4, noted)) ), _)),
+    with_children([a-[], b-[], c-[]], [], S, Ids,
+        ( retractall(test_supervisor:ended(_)),
+          setup_call_cleanup(
+              wrap_predicate(typhon_home:home_ended(Id, _, _, _), noted, W,
+                             ( assertz(test_supervisor:ended(Id)), W )),
+              ( agent_send(S, stop), joined(S, done) ),
+              unwrap_predicate(typhon_home:home_ended/4, noted)) )),
     map_list_to_pairs(number_of, Ids, Numbered0),
     keysort(Numbered0, Numbered),
     findall(Name, ( member(_-Id1, Numbered), named(Id1, Name) ), Started),
@@ -182,50 +178,40 @@ test(supervisor_gives_up_after_so_many_restarts,
                      [ []-3, [intensity(0, 9)]-0, [intensity(2, 9)]-2,
                        [intensity(5, 9)]-5 ])),
        Outcome-Restarts == disposed-Count ]) :-
-    with_hosts([alpha-[clock(virtual)]],
-        capturing(
-            ( ends_after(1, More, S),
-              joined(S, Outcome),
-              started(All),
-              Restarts is All-1 ), _)).
+    quietly([alpha-[clock(virtual)]],
+        ( ends_after(1, More, S),
+          joined(S, Outcome),
+          started(All),
+          Restarts is All-1 )).
 test(restarts_of_long_ago_do_not_count) :-
-    with_hosts([alpha-[clock(virtual)]],
-        capturing(
-            ( ends_after(2, [], S),
-              \+ agent_result(S, _, 100),
-              started(20),
-              agent_property(S, state(_)) ), _)).
+    quietly([alpha-[clock(virtual)]],
+        ( ends_after(2, [], S),
+          \+ agent_result(S, _, 100),
+          started(20),
+          agent_property(S, state(_)) )).
 test(child_starts_again_on_its_host, Host-Again == Beta-Beta) :-
     Children = [a-[host(beta)]],
-    with_hosts([alpha, beta],
-        capturing(
-            ( supervised(Children, [], S),
-              children(S, Children, [A0]),
-              address(beta, Beta),
-              agent_property(A0, host(Host)),
-              again(S, Children, A0, A),
-              agent_property(A, host(Again)) ), _)).
+    quietly([alpha, beta],
+        ( supervised(Children, [], S),
+          children(S, Children, [A0]),
+          address(beta, Beta),
+          agent_property(A0, host(Host)),
+          again(S, Children, A0, A),
+          agent_property(A, host(Again)) )).
 test(restart_on_demand) :-
     Children = [a-[], b-[]],
-    with_hosts([alpha],
-        capturing(
-            ( supervised(Children, [], S),
-              children(S, Children, [A0, B]),
-              agent_send(S, restart(a)),
-              joined(A0, disposed),
-              wait_until(( children(S, Children, [A, B]), A \== A0 ), 10) ),
-            _)).
+    with_children(Children, [], S, [A0, B],
+        ( agent_send(S, restart(a)),
+          joined(A0, disposed),
+          wait_until(( children(S, Children, [A, B]), A \== A0 ), 10) )).
 test(failed_child_is_kept_and_another_takes_its_name, Got == here) :-
     Children = [a-[]],
-    with_hosts([alpha],
-        capturing(
-            ( supervised(Children, [], S),
-              children(S, Children, [A0]),
-              agent_send(A0, fail),
-              wait_until(( children(S, Children, [A]), A \== A0 ), 10),
-              agent_property(A0, state(faulty(_))),
-              agent_send(a, leave(here)),
-              wait_until(remote(alpha, sense(Got)), 10) ), _)).
+    with_children(Children, [], S, [A0],
+        ( agent_send(A0, fail),
+          wait_until(( children(S, Children, [A]), A \== A0 ), 10),
+          agent_property(A0, state(faulty(_))),
+          agent_send(a, leave(here)),
+          wait_until(remote(alpha, sense(Got)), 10) )).
 test(child_may_be_a_supervisor_itself) :-
     worker(W),
     quietly([alpha],
@@ -299,12 +285,12 @@ linked(H1, H2, H3) :-
 
 begun(H1, H2, H3, More) :-
     worker(W),
+    Where = where([same,least_loaded,here]),
     agent_create(agents(supervisor), _,
                  [ host(H1),
-                   facts([ child(a, W, [host(H1),where([same,least_loaded,here])]),
-                           child(b, W, [host(H2),where([same,least_loaded,here])]),
-                           child(c, W, [host(H3),where([same,least_loaded,here])]),
-                           intensity(100, 1)
+                   facts([ child(a, W, [host(H1),Where]),
+                           child(b, W, [host(H2),Where]),
+                           child(c, W, [host(H3),Where]), intensity(100, 1)
                          | More ]) ]).
 
 on_standby(H3) :-
