@@ -69,6 +69,8 @@ defined(Predicate) :-
     clause_of(File, Head),
     !.
 
+%   A test, or a case of a table, has the name as its first argument.
+
 tested(Test) :-
     split_string(Test, ":", "", [Suite, NameText]),
     atom_string(Name, NameText),
@@ -76,7 +78,9 @@ tested(Test) :-
     project_file(test, Tests),
     directory_member(Tests, File, [recursive(true), matches(Base)]),
     clause_of(File, Head),
-    member(Head, [test(Name), test(Name, _)]),
+    compound(Head),
+    arg(1, Head, Name0),
+    Name0 == Name,
     !.
 
 :- begin_tests(equations).
