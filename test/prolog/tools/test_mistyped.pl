@@ -38,7 +38,47 @@ raises(Goal, Parts) :-
     forall(member(Part, Parts),
            assertion(sub_string(Text, _, _, _, Part))).
 
+%   says(Name, Goal, Parts): the text of the error of Goal has Parts.
+
+says(option_of_another_form, host_start(a, [hop_time(3)]),
+     ["(write hop_time(uniform("]).
+says(quota, host_start(a, [quota([hop(3)])]), ["(did you mean hops?)"]).
+says(policy, host_start(a, [policy(guardd)]),
+     ["trusted, guarded or a file of rules"]).
+says(all_options_are_listed, nxt_run(b, a, 50, [limit(90)]),
+     ["; there are brake, degrees, regulated, state, sync"]).
+says(wrong_value_names_the_option, host_start(a, [capacity(many)]),
+     ["in capacity(many)"]).
+says(option_with_an_equals_sign, host_start(a, [port=9700]),
+     ["host option port=9700", "port"]).
+says(setting_of_a_mechanism,
+     sequence_start(s, [], [], [settings([dleta-1])], _),
+     ["there are delta, theta, maximum, window, patience, strategy"]).
+says(topology, network_start(rnig(4), _, []),
+     ["no topology rnig(4) (did you mean ring(N)?)", "grid(Rows,Cols)"]).
+says(arguments_of_a_topology, network_start(grid(3), _, []),
+     ["(did you mean grid(Rows,Cols)?)"]).
+says(arguments_of_a_topology, network_start(ring(a), _, []), ["in ring(a)"]).
+says(clock, network_start(ring(2), _, [clock(fast)]), ["clock(virtual)"]).
+says(clock, host_start(a, [clock(fast)]), ["virtual"]).
+says(vocabulary, user:Goal, ["Unknown procedure", Outside]) :-
+    member(Goal-Outside, [ move(beta)-"agent_move(Agent, Host)",
+                           send(a, b)-"agent_send(Agent, Message)",
+                           leave(x)-"remote(Host, leave(_))" ]).
+says(dynamic_model, network_start(ring(4), _, [dynamic(dynamc_1)]),
+     ["(did you mean dynamic_1"]).
+says(single_process_of_virtual_time,
+     network_start(ring(2), _, [clock(virtual), processes(2)]),
+     ["one process", "processes(2)"]).
+says(search_path, agent_check(agent(census)), ["(did you mean agents(_)?)"]).
+says(strategy,
+     typhon_strategy:next_host(consientious, [], a, memory(1, []), _, _),
+     ["(did you mean conscientious?)"]).
+
 :- begin_tests(options).
+
+test(error_suggests_a_fix, [forall(says(_, Goal, Parts))]) :-
+    raises(Goal, Parts).
 
 %   Unknown names, and their suggestions.
 
@@ -75,33 +115,11 @@ test(unknown_option_is_an_error, [forall(unknown(Goal, Domain, _)),
 test(similar_option_is_suggested, [forall(unknown(Goal, _, Meant))]) :-
     format(string(Proposed), '(did you mean ~w?); there are ', [Meant]),
     raises(Goal, [Proposed]).
-test(limit_of_a_motor, error(domain_error(nxt_motor_option, limit(90)))) :-
-    nxt_run(b, a, 50, [limit(90)]).
-test(option_of_another_form) :-
-    raises(host_start(a, [hop_time(3)]), ["(write hop_time(uniform("]).
-test(quota) :-
-    raises(host_start(a, [quota([hop(3)])]), ["(did you mean hops?)"]).
-test(policy) :-
-    raises(host_start(a, [policy(guardd)]),
-           ["trusted, guarded or a file of rules"]).
-test(all_options_are_listed) :-
-    raises(nxt_run(b, a, 50, [limit(90)]),
-           ["; there are brake, degrees, regulated, state, sync"]).
-test(wrong_value_names_the_option) :-
-    raises(host_start(a, [capacity(many)]), ["in capacity(many)"]).
 test(either_type_is_accepted) :-
     with_hosts([a-[capacity(inf)], b-[capacity(3), concurrency(inf)]], true).
 test(single_letter_gets_no_suggestion) :-
     error_text(agent_create(clauses([]), _, [x(1)]), Text),
     assertion(\+ sub_string(Text, _, _, _, "did you mean")).
-test(option_with_an_equals_sign) :-
-    raises(host_start(a, [port=9700]), ["host option port=9700", "port"]).
-test(setting_of_a_mechanism) :-
-    raises(sequence_start(s, [], [], [settings([dleta-1])], _),
-           ["there are delta, theta, maximum, window, patience, strategy"]).
-test(existing_robot_does_not_hide_the_error,
-     error(domain_error(robot_option, _))) :-
-    robot_start(nowhere, [], [cots(x)]).
 
 :- end_tests(options).
 
@@ -113,23 +131,6 @@ test(numbers_have_the_noun_that_they_need,
                                          1200-hop ]),
                     typhon_names:counted(Count, Noun, Text) ), Texts).
 
-test(topology) :-
-    raises(network_start(rnig(4), _, []),
-           ["no topology rnig(4) (did you mean ring(N)?)", "grid(Rows,Cols)"]).
-test(arguments_of_a_topology) :-
-    raises(network_start(grid(3), _, []), ["(did you mean grid(Rows,Cols)?)"]),
-    raises(network_start(ring(a), _, []), ["in ring(a)"]).
-test(clock) :-
-    raises(network_start(ring(2), _, [clock(fast)]), ["clock(virtual)"]),
-    raises(host_start(a, [clock(fast)]), ["virtual"]).
-test(vocabulary, [forall(member(Goal-Outside,
-                                [ move(beta)-"agent_move(Agent, Host)",
-                                  send(a, b)-"agent_send(Agent, Message)",
-                                  leave(x)-"remote(Host, leave(_))" ]))]) :-
-    raises(user:Goal, ["Unknown procedure", Outside]).
-test(dynamic_model) :-
-    raises(network_start(ring(4), _, [dynamic(dynamc_1)]),
-           ["(did you mean dynamic_1"]).
 test(property, [forall(member(Goal-Meant,
                               [ agent_property(_, sate(_))-"state(_)",
                                 agent_property(bob, hosts(_))-"host(_)",
@@ -183,14 +184,6 @@ test(kinds_of_trace_and_change) :-
                  raises(agent_trace(A, [hop]), ["(did you mean hops?)"]),
                  raises(agent_change(A, fact([])),
                         ["(did you mean facts(Clauses)?)"]) )).
-test(hint_at_the_single_process_of_virtual_time) :-
-    raises(network_start(ring(2), _, [clock(virtual), processes(2)]),
-           ["one process", "processes(2)"]).
-test(search_path) :-
-    raises(agent_check(agent(census)), ["(did you mean agents(_)?)"]).
-test(strategy) :-
-    raises(typhon_strategy:next_host(consientious, [], a, memory(1, []), _, _),
-           ["(did you mean conscientious?)"]).
 
 :- end_tests(names).
 
