@@ -16,7 +16,7 @@ characters from Start up to End are replaced by the string New. Kind is one of
 | comparison | a comparison is turned round                           |
 | bound      | an integer, or the right side of a comparison, is one more |
 | constants  | two constants of a clause are exchanged                |
-| test       | the condition of an if-then-else is negated            |
+| test       | the condition of an if-then-else, or a guard, is negated |
 | cut        | a cut is left out                                      |
 | order      | two clauses of a predicate that follow one another are exchanged |
 
@@ -62,6 +62,7 @@ file_rules(File, rules(End, Bodies)) :-
             Bodies).
 
 rule((_ :- _), rule).
+rule((_ => _), rule).
 rule((_ --> _), dcg).
 
 %   clause(Term, Positions, Line), and module(End) first.
@@ -99,17 +100,26 @@ is_clause(Term) :-
 clause_predicate((Head :- _), Predicate) :-
     !,
     head_predicate(Head, Predicate).
-clause_predicate((Head --> _), Predicate) :-
+clause_predicate((Head0 => _), Predicate) :-
     !,
-    (   nonvar(Head), Head = (H, _)
-    ->  true
-    ;   H = Head
-    ),
-    head_predicate(H, Name/Arity0),
+    plain_head(Head0, Head),
+    head_predicate(Head, Predicate).
+clause_predicate((Head0 --> _), Predicate) :-
+    !,
+    plain_head(Head0, Head),
+    head_predicate(Head, Name/Arity0),
     Arity is Arity0+2,
     Predicate = Name/Arity.
 clause_predicate(Head, Predicate) :-
     head_predicate(Head, Predicate).
+
+%   Head is Head0 without its guard, or its pushback list.
+
+plain_head(Head0, Head) :-
+    nonvar(Head0),
+    Head0 = (Head, _),
+    !.
+plain_head(Head, Head).
 
 head_predicate(Module:Head, Predicate) :-
     !,
@@ -168,9 +178,11 @@ part_change(_, Positions, Text, Start, End, New, clause) :-
     maplist(=('\n'), Lines),
     atomics_to_string(Lines, New).
 part_change(Term, Positions, Text, Start, End, New, Kind) :-
-    Term = (_ :- Body),
-    body(Positions, BodyPositions),
-    goal_change(Body, BodyPositions, Text, Start, End, New, Kind).
+    goals(Term, Positions, Goals, GoalsPositions),
+    goal_change(Goals, GoalsPositions, Text, Start, End, New, Kind).
+part_change(Term, Positions, Text, Start, End, New, test) :-
+    guard(Term, Positions, Guard, GuardPositions),
+    negated(Guard, GuardPositions, Text, Start, End, New).
 part_change(Term, Positions, Text, Start, End, New, constants) :-
     clause_constants(Term, Positions, Constants),
     append(_, [C1-p(S1, E1)|Rest], Constants),
@@ -197,8 +209,22 @@ full_stop(Text, End0, End) :-
     ;   full_stop(Text, End1, End)
     ).
 
-body(Positions0, Body) :-
-    unwrapped(Positions0, term_position(_, _, _, _, [_, Body])).
+goals((_ :- Body), Positions, Body, BodyPositions) :-
+    body(Positions, BodyPositions).
+goals((_ => Body), Positions, Body, BodyPositions) :-
+    body(Positions, BodyPositions).
+goals(Term, Positions, Guard, GuardPositions) :-
+    guard(Term, Positions, Guard, GuardPositions).
+
+body(Positions, Body) :-
+    operands(Positions, _, Body).
+
+guard((_, Guard => _), Positions, Guard, GuardPositions) :-
+    operands(Positions, Head, _),
+    operands(Head, _, GuardPositions).
+
+operands(Positions, Left, Right) :-
+    unwrapped(Positions, term_position(_, _, _, _, [Left, Right])).
 
 %   Goals: only those of control structures are looked into.
 

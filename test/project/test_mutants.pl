@@ -31,18 +31,33 @@ program(":- module(m, [p/2]).\n\c
 %   changed(-Kinds, -Texts): the changes of the program.
 
 changed(Changes, Texts) :-
-    with_tmp_dir(changed(Changes, Texts)).
-
-changed(Changes, Texts, Dir) :-
-    directory_file_path(Dir, 'm.pl', File),
     program(Program),
-    write_file(File, Program),
-    file_changes(File, Changes0),
+    changes_of(Program, Changes0),
     findall(Kind-Line,
             member(change(_, _, _, _, Kind, p/2, Line), Changes0), Changes),
     findall(Text,
             ( member(Change, Changes0), changed_text(Program, Change, Text) ),
             Texts).
+
+changes_of(Program, Changes) :-
+    with_tmp_dir(Dir, ( directory_file_path(Dir, 'm.pl', File),
+                        write_file(File, Program),
+                        file_changes(File, Changes) )).
+
+%   parts(-Parts): predicate, kind, line and new text of the changes of a
+%   program whose clauses have =>.
+
+parts(Parts) :-
+    Program = ":- module(m, [p/1]).\n\c
+               p(a) => true.\n\c
+               p(X), X > 1 => q(X), !.\n\c
+               p(X), (integer(X), r(X)) =>\n    \c
+                   q(X).\n\c
+               q(_) => true.\n",
+    changes_of(Program, Changes),
+    findall(Predicate-Kind-Line-New,
+            member(change(_, _, _, New, Kind, Predicate, Line), Changes),
+            Parts).
 
 terms(Text, Count) :-
     setup_call_cleanup(
@@ -76,6 +91,22 @@ test(each_kind_of_change_is_made, Missing == []) :-
                        constants-7, bound-10 ]),
               \+ memberchk(Kind-Line, Changes) ),
             Missing).
+test(bodies_and_guards_of_single_sided_rules_are_changed, Missing == []) :-
+    parts(Parts),
+    findall(Part,
+            ( member(Part,
+                     [ clause-2-"", clause-4-"\n", goal-3-"true", cut-3-"true",
+                       comparison-3-"=<", bound-3-"((1)+1)",
+                       test-3-"\\+ (X > 1)", goal-4-"true",
+                       test-4-"\\+ ((integer(X), r(X)))", goal-5-"true",
+                       order-2-_, order-3-_ ]),
+              Part = Kind-Line-New,
+              \+ memberchk(p/1-Kind-Line-New, Parts) ),
+            Missing).
+test(single_sided_rules_are_clauses_of_their_predicates,
+     Others == [q/1-clause-6]) :-
+    parts(Parts),
+    findall(P-Kind-Line, ( member(P-Kind-Line-_, Parts), P \== p/1 ), Others).
 test(changed_program_is_a_program_with_as_many_lines, Faults == []) :-
     changed(_, Texts),
     findall(Text,
