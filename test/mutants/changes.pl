@@ -3,7 +3,8 @@
             file_rules/2,               % +File, -Rules
             changed_text/3,             % +Text, +Change, -Changed
             change_text/2,              % +Change, -Line
-            change_words/3              % +Change, -Old, -New
+            change_words/3,             % +Change, -Old, -New
+            plain_head/2                % +Head, -Plain
           ]).
 
 /** <module> Small changes to a program, each of which takes something away
@@ -113,11 +114,13 @@ clause_predicate((Head0 --> _), Predicate) :-
 clause_predicate(Head, Predicate) :-
     head_predicate(Head, Predicate).
 
-%   Head is Head0 without its guard, or its pushback list.
+%!  plain_head(+Head, -Plain) is det.
+%
+%   Plain is Head without its guard, or its pushback list.
 
-plain_head(Head0, Head) :-
-    nonvar(Head0),
-    Head0 = (Head, _),
+plain_head(Head, Plain) :-
+    nonvar(Head),
+    Head = (Plain, _),
     !.
 plain_head(Head, Head).
 

@@ -9,8 +9,8 @@
 */
 
 :- use_module('../lib/common', [project_file/2]).
-:- use_module(changes, [change_words/3, file_changes/2]).
-:- use_module(library(apply), [maplist/2]).
+:- use_module(changes, [change_words/3, file_changes/2, plain_head/2]).
+:- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 
@@ -28,6 +28,11 @@ equivalent_change(Change, "the messages of two terms in another order") :-
     memberchk(Name, [error_message, message]),
     changed_clauses(Change, (Head1 --> _), (Head2 --> _)),
     Head1 \= Head2.
+equivalent_change(Change, "single-sided rules of which no goal matches both") :-
+    Change = change(_, _, _, _, order, _, _),
+    changed_clauses(Change, (Head1 => _), (Head2 => _)),
+    maplist(plain_head, [Head1,Head2], [Plain1,Plain2]),
+    Plain1 \= Plain2.
 equivalent_change(Change, Reason) :-
     Change = change(File, _, _, _, Kind, Predicate, _),
     equivalent(File, Predicate, Kind, _, _, _),

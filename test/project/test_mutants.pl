@@ -44,6 +44,17 @@ changes_of(Program, Changes) :-
                         write_file(File, Program),
                         file_changes(File, Changes) )).
 
+%   orders(+Program, -Lines): of changes of the order that change something.
+
+orders(Program, Lines) :-
+    with_tmp_dir(Dir,
+        ( directory_file_path(Dir, 'm.pl', File),
+          write_file(File, Program),
+          file_changes(File, Changes),
+          findall(Line, ( member(Change, Changes),
+                          Change = change(_, _, _, _, order, _, Line),
+                          \+ equivalent_change(Change, _) ), Lines) )).
+
 %   parts(-Parts): predicate, kind, line and new text of the changes of a
 %   program whose clauses have =>.
 
@@ -121,17 +132,20 @@ test(suite_that_waits_for_ever_is_ended, Result == killed(hangs)) :-
 test(equivalent_changes_are_still_possible, Outdated == []) :-
     findall(File, outdated_equivalent(File), Outdated).
 test(order_of_messages_is_equivalent, Orders == [4,6]) :-
-    with_tmp_dir(Dir,
-        ( directory_file_path(Dir, 'm.pl', File),
-          write_file(File, ":- module(m, []).\n\c
-              prolog:message(a(_)) --> [x].\n% two\n\c
-              prolog:message(b(_)) --> [y].\n\c
-              prolog:message(b(_)) --> [z].\n\c
-              p(a) --> [x].\np(b) --> [y].\n"),
-          file_changes(File, Changes),
-          findall(Line, ( member(Change, Changes),
-                          Change = change(_, _, _, _, order, _, Line),
-                          \+ equivalent_change(Change, _) ), Orders) )).
+    orders(":- module(m, []).\n\c
+            prolog:message(a(_)) --> [x].\n% two\n\c
+            prolog:message(b(_)) --> [y].\n\c
+            prolog:message(b(_)) --> [z].\n\c
+            p(a) --> [x].\np(b) --> [y].\n", Orders).
+test(order_of_single_sided_rules_of_other_goals_is_equivalent,
+     Orders == [3,4,5]) :-
+    orders(":- module(m, []).\n\c
+            p(a, _), x => true.\n\c
+            p(b, _), y => true.\n\c
+            p(b, 1) => true.\n\c
+            p(X, _), X \\== c => true.\n\c
+            p(_, 1) => true.\n\c
+            q(a) => true.\n", Orders).
 test(no_change_leaves_the_program_as_it_was, [fail]) :-
     changed(_, Texts),
     program(Program),
