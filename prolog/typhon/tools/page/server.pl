@@ -131,15 +131,13 @@ serve(In, Request) :-
                      page was started, leads here; this address does not')
     ).
 
-%   admitted(+Parts, +Request, -Rest, -Token) is semidet: Request has Token in
-%   its path, its query or its authorization; Rest are the parts of the path
-%   after it.
+%   admitted(+Parts, +Request, -Rest, -Token): Request has Token in its path,
+%   its query or its authorization; Rest are the parts of the path after it.
 
 admitted([Given|Rest], _, Rest, Token) :-
     Rest = [_|_],
     serving(_, Token, _),
-    token_right(Given, Token),
-    !.
+    token_right(Given, Token).
 admitted([Name], Request, Rest, Token) :-
     (   option(search(Search), Request),
         memberchk(token=Given, Search)
@@ -148,7 +146,6 @@ admitted([Name], Request, Rest, Token) :-
     ),
     serving(_, Token, _),
     token_right(Given, Token),
-    !,
     ( Name == '' -> Rest = [] ; Rest = [Name] ).
 
 route([], Token, _, _) =>
@@ -294,12 +291,12 @@ handler(In, typhon_page_server:serve(In)).
 
 %   After the upgrade the connection is a WebSocket.
 
-switched(switch_protocol(Goal, _), In, Out) :-
-    !,
+switched(switch_protocol(Goal, _), In, Out) =>
     client_becomes(apart),
     set_stream(Out, timeout(infinite)),
     call(Goal, In, Out).
-switched(_, _, _).
+switched(_, _, _) =>
+    true.
 
 %   with_body(+In, +Length, -Body, :Goal) is semidet.
 %
