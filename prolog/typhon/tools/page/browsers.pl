@@ -219,12 +219,11 @@ browser_serve(Scene, WebSocket) :-
 %   The first clauses handle the ways in which a connection ends normally: the
 %   browser has disconnected, or the page has stopped.
 
-report_end(error(io_error(_, _), _)) :- !.
-report_end(error(socket_error(_, _), _)) :- !.
-report_end(typhon_page(bye)) :- !.
-report_end(crew_end) :- !.
-report_end(Ball) :-
-    print_error(warning, Ball).
+report_end(error(io_error(_, _), _)) => true.
+report_end(error(socket_error(_, _), _)) => true.
+report_end(typhon_page(bye)) => true.
+report_end(crew_end) => true.
+report_end(Ball) => print_error(warning, Ball).
 
 serve(Queue, Scene, WebSocket) :-
     (   add_browser(Queue)
