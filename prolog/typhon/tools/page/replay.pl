@@ -88,11 +88,7 @@ shown_event(What, Shown), own_event(What) => Shown = What.
 shown_event(What, Shown), of_network(What) => Shown = What.
 shown_event(Term, Shown) => Shown = log(Term).
 
-of_network(link(Other)) :- is_address(Other).
 of_network(link(Other, Cost)) :- is_address(Other), number(Cost).
-of_network(unlink(Other)) :- is_address(Other).
-of_network(started).
-of_network(stopped).
 of_network(lost).
 
 is_address(Address) :-

@@ -428,6 +428,30 @@ test(log_of_a_browser, Names == ["clones", "task executed"]) :-
     findall(Name, ( member(Overlay, Log.overlays), Name = Overlay.name ),
             Names).
 
+%   Events of hosts and links keep their kinds, and others are logs.
+
+test(kinds_of_events_of_a_log, Kinds == Expected) :-
+    findall(What-Kind, logged_kind(What, Kind), Pairs),
+    pairs_keys_values(Pairs, Events, Expected),
+    findall(Line, ( nth1(N, Events, What),
+                    format(string(Line), '~q.~n',
+                           [event(N, 'a@h:1', none, What)]) ), Lines),
+    atomics_to_string(Lines, Text),
+    page(Base, answer(Base, _{ask:replay, title:"x.log", text:Text}, Log)),
+    findall(Kind, ( member([_, _, _, Index|_], Log.events),
+                    nth0(Index, Log.names, Kind) ), Kinds).
+
+logged_kind(started, "started").
+logged_kind(stopped, "stopped").
+logged_kind(lost, "lost").
+logged_kind(link('b@h:1'), "link").
+logged_kind(link('b@h:1', 2), "link").
+logged_kind(unlink('b@h:1'), "unlink").
+logged_kind(link(other), "log").
+logged_kind(link('b@h:1', far), "log").
+logged_kind(unlink(x), "log").
+logged_kind(begun, "log").
+
 checked_by_promtool(Text, Said) :-
     setup_call_cleanup(
         process_create(path(promtool), [check, metrics],
