@@ -5,7 +5,8 @@
             got/3,                      % +Address, +Options, -Status
             with_feed/3,                % +Base, -Feed, :Goal
             frame/2,                    % +Feed, -Frame
-            feed_event/3                % +Feed, +Pattern, -Event
+            feed_event/3,               % +Feed, +Pattern, -Event
+            feed_closed/2               % +Feed, -Code
           ]).
 
 /** <module> Clients of the page
@@ -97,4 +98,17 @@ feed_event(Feed, Pattern, Event) :-
         ;   nb_setarg(2, Feed, [])
         ),
         feed_event(Feed, Pattern, Event)
+    ).
+
+%!  feed_closed(+Feed, -Code) is det.
+%
+%   Code is that of the close frame with which the server ends Feed, or `none`
+%   if it ends without. Frames before that are skipped.
+
+feed_closed(Feed, Code) :-
+    Feed = feed(Socket, _),
+    call_with_time_limit(20, ws_receive(Socket, Message, [])),
+    (   get_dict(opcode, Message, close)
+    ->  ( get_dict(code, Message, Code0) -> Code = Code0 ; Code = none )
+    ;   feed_closed(Feed, Code)
     ).

@@ -613,6 +613,11 @@ test(initial_state_is_sent, [Hosts, ReadOnly] == [2, false]) :-
     length(Scene.hosts, Hosts),
     ReadOnly = Scene.read_only.
 
+test(page_that_stops_closes_the_connection_in_order, Code == 1000) :-
+    page(Base, with_feed(Base, Feed, ( frame(Feed, _),
+                                       page_stop,
+                                       feed_closed(Feed, Code) ))).
+
 test(events_are_sent) :-
     page(Base, with_feed(Base, Feed, happenings(Feed))).
 
