@@ -239,9 +239,9 @@ node_dict(node(Agent, Relation, Summary, Below), Dict) :-
     summary_dict(Summary, Agent, Dict0),
     Dict = Dict0.put(_{id:Id, relation:RelationText, below:Dicts}).
 
-summary_dict(none, _, _{host:"", program:"", status:"", doing:""}) :-
-    !.
-summary_dict(Summary, Agent, Dict) :-
+summary_dict(none, _, Dict) =>
+    Dict = _{host:"", program:"", status:"", doing:""}.
+summary_dict(Summary, Agent, Dict) =>
     agent_summary_dict(agent(Agent, Summary), Dict).
 
 network_dict(_{name:Name, hosts:HostTexts, seed:Seed, processes:Pids}) :-

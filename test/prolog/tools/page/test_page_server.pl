@@ -5,6 +5,8 @@
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/fixtures').
 :- use_module('../../../lib/pages').
+:- use_module('../../../lib/peers', [peer_agent/4, with_peers/2]).
+:- use_module('../../../lib/texts', [write_file/2]).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(lists), [member/2, sum_list/2]).
 :- use_module(library(plunit)).
@@ -397,6 +399,52 @@ test(programs) :-
     page(Base, answer(Base, _{ask:"programs"}, Names)),
     assertion(memberchk("agents(sync/traveller)", Names)),
     assertion(\+ ( member(Name, Names), sub_string(Name, _, _, _, operator) )).
+
+%   A program begins with :- agent(Name, Options), or :- agent(Name).
+
+test(other_files_in_folders_of_agents_are_no_programs,
+     Names == ["agents('x y')", "agents(below/two)", "agents(one)"]) :-
+    with_tmp_dir(Dir,
+        ( directory_file_path(Dir, below, Below),
+          make_directory(Below),
+          forall(folder_file(Name, Text),
+                 ( directory_file_path(Dir, Name, File),
+                   write_file(File, Text) )),
+          page(Base,
+               setup_call_cleanup(
+                   assertz(user:file_search_path(agents, Dir), Ref),
+                   answer(Base, _{ask:"programs"}, All),
+                   erase(Ref))) )),
+    page(Base1, answer(Base1, _{ask:"programs"}, Ours)),
+    findall(Name, ( member(Name, All), \+ memberchk(Name, Ours) ), Names).
+
+folder_file('one.pl', ":- agent(one, []).\n").
+folder_file('below/two.pl', "% a comment\n:- agent(two).\n").
+folder_file('x y.pl', ":- agent('x y', [static]).\n").
+folder_file('three.pl', ":- agent(three, [], []).\n").
+folder_file('none.pl', ":- agent.\n").
+folder_file('late.pl', "p.\n:- agent(late, []).\n").
+folder_file('module.pl', ":- module(agent, []).\n").
+folder_file('fact.pl', "agent(fact, []).\n").
+folder_file('wrong.pl', ":- agent(wrong, [).\n").
+folder_file('text.txt', ":- agent(text, []).\n").
+folder_file('empty.pl', "").
+
+%   The page shows no host of gamma.
+
+test(agent_of_a_host_that_is_not_shown_has_no_summary) :-
+    with_peers([gamma],
+        ( peer_agent(gamma, [(:- agent(there, [])), on_message(_, _)], [],
+                     There),
+          page(Base,
+               ( create([(main :- monitor(There), receive(_))], Here,
+                        [host(alpha)]),
+                 wait_state(Here, waiting),
+                 answer(Base, _{ask:"tree"}, [Top]) )) )),
+    atom_string(There, Text),
+    [Node] = Top.below,
+    assertion(_{ id:Text, relation:"monitored", below:[], host:"", program:"",
+                 status:"", doing:"" } :< Node).
 
 test(metrics, Said == "") :-
     page(Base, ( create([on_message(_, _)], _, [host(alpha)]),
