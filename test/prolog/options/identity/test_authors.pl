@@ -121,10 +121,40 @@ outcome(Goal, Outcome) :-
     catch(( call(Goal), Outcome = true ), error(Outcome, _), true).
 
 signed_resident(Authority, Name, File) :-
+    resident(Authority, Name, File),
+    keys_sign_file(File, alice, Authority).
+
+resident(Authority, Name, File) :-
     atom_concat(Name, '.pl', Base),
     directory_file_path(Authority, Base, File),
-    write_file(File, ':- agent(~w, []).~non_message(_, _).~n', [Name]),
-    keys_sign_file(File, alice, Authority).
+    write_file(File, ':- agent(~w, []).~non_message(_, ~w).~n', [Name, Name]).
+
+%   This process reads the signature that another has written.
+
+test(signature_beside_the_file_is_read, Outcome == true) :-
+    with_choosy_host([alpha, beta], [alice], Authority, _,
+        ( resident(Authority, read, File),
+          project_file('app/typhon/keys', Keys),
+          peer_do(beta, ( use_module(Keys, []),
+                          typhon_app_keys:keys_sign_file(File, alice,
+                                                     Authority) )),
+          outcome(agent_create(File, _, [host(alpha)]), Outcome) )).
+
+%   The owner of an agent is the author, not the process that has sent it.
+
+test(quotas_of_owners_are_those_of_authors,
+     Outcomes == [true,true,move_refused(Alpha, quota(agents))]) :-
+    with_choosy_host([alpha, beta], [alice, bob], Authority, Alpha,
+        ( host_change(alpha, authors([alice,bob])),
+          host_change(alpha, quota([owner(agents(1))])),
+          findall(Outcome,
+                  ( member(Name-Author, [one-alice,two-bob,three-alice]),
+                    resident(Authority, Name, File),
+                    keys_sign_file(File, Author, Authority),
+                    peer_do(beta, catch(( agent_create(File, _, [host(Alpha)]),
+                                          Outcome = true ),
+                                        error(Outcome, _), true)) ),
+                  Outcomes) )).
 
 test(hosts_and_revoked_authors_cannot_sign, Before == done) :-
     with_choosy_host([alpha], [alice], Authority, _,
