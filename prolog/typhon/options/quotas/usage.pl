@@ -146,31 +146,26 @@ forget_some :-
 forget_some.
 
 spend_shared(Host, Agent, What) :-
-    quota_shared(Host, _, What, _),
+    once(quota_shared(Host, _, What, _)),
+    owner(Host, Agent, Owner),
+    with_mutex(typhon_usage, exceeds(Host, What, Owner)),
     !,
-    (   owner(Host, Agent, Owner)
-    ->  with_mutex(typhon_usage, count(Host, What, Owner, Passed)),
-        (   Passed == true
-        ->  quota_passed(What)
-        ;   true
-        )
-    ;   true
-    ).
+    quota_passed(What).
 spend_shared(_, _, _).
 
 owner(Host, Agent, Owner) :-
     quota_owner(Agent, Host, Owner),
     !.
 
-count(Host, What, Owner, Passed) :-
+%   exceeds(+Host, +What, +Owner): with one more act What of Owner in this
+%   second, its agents act too often.
+
+exceeds(Host, What, Owner) :-
     this_second(Second),
     begin_second(Host, What, Second),
     count_one(Host, What, Owner, Second, Count),
     count_one(Host, What, all, Second, All),
-    (   too_often(Host, What, Count, All)
-    ->  Passed = true
-    ;   Passed = false
-    ).
+    too_often(Host, What, Count, All).
 
 begin_second(Host, What, Second) :-
     (   shared(Host, What, all, Second, _)

@@ -78,6 +78,10 @@ test(act_beyond_the_quota_of_a_host_is_refused_to_the_greatest_user,
       Results == [ok,ok,ok,ok,over(What),over(What)]]) :-
     quota_of(host, What, 3, Quota),
     with_quotas([Quota], acts([a1,a2,a1,b,a2,a1], Act, Results)).
+test(act_counts_once_for_its_owner_and_its_host,
+     Results == [ok,ok,ok,over(messages)]) :-
+    with_quotas([owner(messages(3)), host(messages(9))],
+                acts([a1,a2,a1,a2], send(x), Results)).
 test(host_ends_owners_that_act_equally_often,
      Results == [ok,ok,ok,over(messages)]) :-
     with_quotas([host(messages(3))], acts([a1,a1,b,b], send(x), Results)).
@@ -298,6 +302,11 @@ test(seconds_of_a_turn, Acts == [none,stop_in(t, a1, seconds)]) :-
     with_quotas([seconds(5)],
                 findall(Act, ( member(S, [5,5.001]), exceeds(t, S, Act) ),
                         Acts)).
+test(agent_that_runs_for_long_pauses_if_another_does_not,
+     [forall(member(Seconds-Expected, [0.1-[], 0.101-[pause_in(t, a1)]])),
+      Acts == Expected]) :-
+    with_quotas([seconds(5)],
+                pauses(Seconds, Acts)).
 test(stack_of_a_turn, Acts = [none,stop_in(_, a1, stack)]) :-
     setup_call_cleanup(
         thread_create(thread_get_message(go), Thread),
@@ -336,6 +345,17 @@ exceeds(Thread, Seconds, Act) :-
     ->  Act = Act0
     ;   Act = none
     ).
+
+%   The turn of another agent begins in this thread. It counts as long if this
+%   thread has to wait, so there are several attempts.
+
+pauses(Seconds, Acts) :-
+    findall(Act,
+            ( between(1, 20, _),
+              typhon_turns:turn_begins(a2),
+              typhon_quota_enforcer:exceeds(a1, h, t, Seconds, Act) ),
+            Acts0),
+    sort(Acts0, Acts).
 
 %   The thread waits, so that its stack does not change.
 
