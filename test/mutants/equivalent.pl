@@ -20,6 +20,12 @@
 equivalent('prolog/typhon/tools/page/overlays.pl', predicate_dict/2, constants,
            "user, comment", "comment, user",
            "module and place of a comment are for warnings, which are not printed").
+equivalent('prolog/typhon/options/quotas/usage.pl', spend_shared/3, goal,
+           "once(quota_shared(Host, _, What, _))", "true",
+           "acts are counted that no quota bounds").
+equivalent('prolog/typhon/options/cell/cells.pl', give/2, goal,
+           "key_without_cell(_)", "true",
+           "the server of the cells wakes, and finds nothing to do").
 
 %!  equivalent_change(+Change, -Reason:string) is semidet.
 
