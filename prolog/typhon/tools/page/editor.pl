@@ -213,11 +213,9 @@ lines_text(Lines, Text) :-
                    print_message_lines(current_output, '', Lines)),
     split_string(Text0, "", " \n", [Text]).
 
-%   Place is the position of the syntax error.
+%   Place is the position of a syntax error that term_string/2 raises.
 
 place_text(string(Text, Position), Place) :-
-    integer(Position),
-    !,
     string_length(Text, Length),
     At is min(Position, Length),
     Start is max(0, At-20),
@@ -226,10 +224,6 @@ place_text(string(Text, Position), Place) :-
     sub_string(Text, At, _, 0, After0),
     split_string(After0, "", " .", [After]),
     format(string(Place), ', at "~w ** here ** ~w"', [Before, After]).
-place_text(stream(_, Line, Column, _), Place) :-
-    !,
-    format(string(Place), ', at line ~w, column ~w', [Line, Column]).
-place_text(_, '').
 
                 /*******************************
                 *           MESSAGES           *

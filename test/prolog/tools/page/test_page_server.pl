@@ -532,7 +532,8 @@ test(create_and_send, Facts =@= [n(hello(_, 'B', "c"))]) :-
 test(bad_terms) :-
     page(Base, ( create([on_message(_, _)], A, [host(alpha)]),
                  fails(Base, _{do:"send", agent:A, message:"go("},
-                       ["message", "go( ** here **"]),
+                       [ "the message cannot be read: Unexpected end of clause",
+                         ", at \"go( ** here ** \"" ]),
                  fails(Base, _{do:"send", agent:A}, ["message", "missing"]),
                  fails(Base, _{do:"network_start", topology:"grid(a"},
                        ["topology"]),
