@@ -535,6 +535,7 @@ test(bad_terms) :-
                        [ "the message cannot be read: Unexpected end of clause",
                          ", at \"go( ** here ** \"" ]),
                  fails(Base, _{do:"send", agent:A}, ["message", "missing"]),
+                 fails(Base, _{do:"link"}, ["the a is missing"]),
                  fails(Base, _{do:"network_start", topology:"grid(a"},
                        ["topology"]),
                  fails(Base, _{do:"network_start", topology:"grdi(2,2)"},
