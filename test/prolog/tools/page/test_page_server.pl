@@ -14,6 +14,8 @@
               [process_create/3, process_kill/2, process_wait/2]).
 :- use_module(library(socket)).
 :- use_module(library(typhon)).
+:- use_module('../../../../prolog/typhon/kernel/base/monotonic',
+              [monotonic_time/1]).
 
 % page(+Options, -Base, :Goal): two hosts, linked, and a page.
 
@@ -705,6 +707,28 @@ no_number(Base, Cost, Logged) :-
                 Host.links = [[_, Cost]],
                 create([(main :- X is nan, log(X))], _, [host(alpha)]),
                 feed_event(Feed, [_, _, "log"], [_, _, _, _, Logged]) )).
+
+%   Hosts with clocks of their own: each event has the time of the page, which
+%   that of the snapshot before it and of the one after it are, too.
+
+test(events_have_the_time_of_the_page, Unordered == []) :-
+    monotonic_time(Now),
+    with_hosts([alpha, beta-[clock(Now, 1000)]],
+               with_page([], Base,
+                         with_feed(Base, Feed, times(Base, Feed, All)))),
+    findall(Times, ( member(Times, All), \+ msort(Times, Times) ), Unordered).
+
+times(Base, Feed, [[Before, AtAlpha, After], [Before, AtBeta, After]]) :-
+    frame(Feed, First),
+    Before = First.snapshot.time,
+    maplist(logged(Feed), [alpha, beta], [AtAlpha, AtBeta]),
+    answer(Base, _{ask:"survey"}, Last),
+    After = Last.time.
+
+logged(Feed, Host, Time) :-
+    create([(main :- log(Host))], _, [host(Host)]),
+    atom_string(Host, Text),
+    feed_event(Feed, [_, _, "log", Text], [Time|_]).
 
 %   Virtual time is shown as it is.
 
