@@ -44,6 +44,29 @@ equivalent_change(Change, Reason) :-
     equivalent(File, Predicate, Kind, _, _, _),
     change_words(Change, Old, New),
     equivalent(File, Predicate, Kind, Old, New, Reason).
+equivalent_change(Change, "a searched list in another order") :-
+    Change = change(File, Start, _, _, constants, _, _),
+    change_words(Change, Old, _),
+    text_before(File, Start, Before),
+    searched_list(Before, Old).
+
+text_before(File, Start, Before) :-
+    project_file(File, Path),
+    read_file_to_string(Path, Text, [encoding(utf8)]),
+    sub_string(Text, 0, Start, _, Before).
+
+%   searched_list(+Before, +Old): Before ends in a list, and Old lies in it, in
+%   which memberchk/2 looks for the value of a variable among constants.
+
+searched_list(Before, Old) :-
+    sub_string(Before, _, _, After, "memberchk("),
+    sub_string(Before, _, After, 0, Call),
+    atomic_list_concat([Searched,Elements], '[', Call),
+    split_string(Searched, ",", " \n", [Name,""]),
+    catch(term_string(Variable, Name), error(syntax_error(_), _), fail),
+    var(Variable),
+    split_string(Elements, "])(", "", [_]),
+    split_string(Old, "[])(", "", [_]).
 
 changed_clauses(change(File, Start, End, _, order, _, _), First, Second) :-
     project_file(File, Path),

@@ -150,6 +150,22 @@ test(no_change_leaves_the_program_as_it_was, [fail]) :-
     changed(_, Texts),
     program(Program),
     member(Program, Texts).
+test(order_of_a_list_that_is_searched_is_equivalent, Lines == [4,5,6,7,8,9]) :-
+    with_tmp_dir(Dir,
+        ( directory_file_path(Dir, 'm.pl', File),
+          write_file(File, ":- module(m, []).\n\c
+              p(X) :- memberchk(X, [a,b,c]).\n\c
+              p(X) :- memberchk(X,\n [a]),\n\c
+              member(X, [b,a]).\n\c
+              p(X) :- memberchk(x(X), [a,b]).\n\c
+              p(X) :- memberchk(X, [a]), q(b).\n\c
+              p(X) :- memberchk(X, [x(a,b)]).\n\c
+              p(X) :- memberchk(X-[c], [a,b]).\n"),
+          file_changes(File, Changes),
+          findall(Line, ( member(Change, Changes),
+                          Change = change(_, _, _, _, constants, _, Line),
+                          \+ equivalent_change(Change, _) ), Lines0),
+          sort(Lines0, Lines) )).
 
 :- end_tests(mutants).
 
