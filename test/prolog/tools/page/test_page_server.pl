@@ -79,6 +79,17 @@ answered(Start, Path, Status) :-
     atom_concat(Start, Path, Address),
     got(Address, [], Status).
 
+test(files_are_only_read,
+     Statuses == [get-200, head-200, post-404, put-404, delete-404]) :-
+    page(Base, findall(Method-Status,
+                       ( member(Method, [get, head, post, put, delete]),
+                         asked_for(Method, Base, Status) ),
+                       Statuses)).
+
+asked_for(Method, Base, Status) :-
+    http_open:http_open(Base, In, [method(Method), status_code(Status)]),
+    close(In).
+
 %   A listener counts the connections that queries of a viewer cause.
 
 test(queries_lead_to_no_other_address,
