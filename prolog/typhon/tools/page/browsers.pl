@@ -40,7 +40,7 @@ a thread that sends it the texts, and one that detects when it disconnects.
            "Seconds without events after which a page sends a heartbeat").
 
 :- dynamic
-    browser/2,                  % Queue, Thread
+    browser/1,                  % Queue
     skipped/2,                  % Queue, Count: dropped events
     sender/1.                   % Server
 
@@ -57,7 +57,8 @@ frames_waiting(40).
 %!  browsers_stop is det.
 %
 %   Start the server that sends events; stop it, send a close frame to connected
-%   browsers, and wait until they have disconnected, for at most five seconds.
+%   browsers, and wait until they have read it, for at most five seconds.  The
+%   HTTP server ends the others.
 
 browsers_start :-
     queue_size(Size),
@@ -74,27 +75,8 @@ browsers_stop :-
 stop(Sender) :-
     server_stop(Sender),
     retractall(skipped(_, _)),
-    forall(browser(Browser, _), disconnect(Browser)),
-    wait_until_gone.
-
-%   If the queue of a browser is full, its thread is blocked in sending, and
-%   would not read the message: it is interrupted.
-
-disconnect(Browser) :-
-    browser(Browser, Thread),
-    catch(( has_room(Browser)
-          ->  thread_send_message(Browser, bye)
-          ;   thread_signal(Thread, throw(typhon_page(bye)))
-          ),
-          error(existence_error(_, _), _), true).
-
-wait_until_gone :-
-    poll_within(5, \+ browser(_, _)),
-    !.
-wait_until_gone :-
-    forall(browser(_, Thread),
-           catch(thread_signal(Thread, throw(typhon_page(bye))),
-                 error(existence_error(_, _), _), true)).
+    forall(browser(Browser), put_message(Browser, bye)),
+    ignore(poll_within(5, \+ browser(_))).
 
                 /*******************************
                 *            EVENTS            *
@@ -114,7 +96,7 @@ browsers_send(Event) :-
 %!  browsers_there is semidet.
 
 browsers_there :-
-    browser(_, _),
+    browser(_),
     !.
 
 %   The state is frame(Due, Count, Events), with the newest event first.  Events
@@ -152,17 +134,17 @@ begin_frame(Due, until(Beat, frame(Due, 0, []))) :-
     Beat is Now+Pause.
 
 send_events(_, _) :-
-    \+ browser(_, _),
+    \+ browser(_),
     !.
 send_events([], Now) :-
     !,
     json_text(_{tick:Now}, Text),
-    forall(browser(Browser, _), queue_text(Browser, Text, 0)).
+    forall(browser(Browser), queue_text(Browser, Text, 0)).
 send_events(Events, _) :-
     event_rows(Events, Rows),
     json_text(_{events:Rows}, Text),
     length(Events, Count),
-    forall(browser(Browser, _), queue_text(Browser, Text, Count)).
+    forall(browser(Browser), queue_text(Browser, Text, Count)).
 
 %   Only the server puts texts into the queue of a browser, so a text for which
 %   there is space now still fits later.
@@ -171,13 +153,13 @@ queue_text(Browser, Text, Count) :-
     ( retract(skipped(Browser, Skipped)) -> true ; Skipped = 0 ),
     (   has_room(Browser)
     ->  report_skipped(Skipped, Browser),
-        put_text(Browser, Text)
+        put_message(Browser, frame(Text))
     ;   More is Skipped+Count,
         with_mutex(typhon_page, skip(Browser, More))
     ).
 
 skip(Browser, Count) :-
-    (   browser(Browser, _)
+    (   browser(Browser)
     ->  assertz(skipped(Browser, Count))
     ;   true                            % it has gone meanwhile
     ).
@@ -193,10 +175,10 @@ report_skipped(0, _) :-
 report_skipped(Skipped, Browser) :-
     skipped_row(Skipped, Row),
     json_text(_{events:[Row]}, Text),
-    put_text(Browser, Text).
+    put_message(Browser, frame(Text)).
 
-put_text(Browser, Text) :-
-    catch(thread_send_message(Browser, frame(Text)),
+put_message(Browser, Message) :-
+    catch(thread_send_message(Browser, Message),
           error(existence_error(_, _), _), true).
 
                 /*******************************
@@ -226,7 +208,7 @@ report_end(crew_end) => true.
 report_end(Ball) => print_error(warning, Ball).
 
 serve(Queue, Scene, WebSocket) :-
-    (   add_browser(Queue)
+    (   with_mutex(typhon_page, add_browser(Queue))
     ->  call(Scene, Dict),
         json_text(Dict, Text),
         ws_send(WebSocket, text(Text)),
@@ -236,19 +218,15 @@ serve(Queue, Scene, WebSocket) :-
     ).
 
 add_browser(Queue) :-
-    thread_self(Me),
-    with_mutex(typhon_page, add_browser(Queue, Me)).
-
-add_browser(Queue, Me) :-
     sender(_),
     setting(browsers, Most),
-    findall(B, browser(B, _), Browsers),
+    findall(B, browser(B), Browsers),
     length(Browsers, Count),
     Count < Most,
-    assertz(browser(Queue, Me)).
+    assertz(browser(Queue)).
 
 remove_browser(Queue) :-
-    with_mutex(typhon_page, ( retractall(browser(Queue, _)),
+    with_mutex(typhon_page, ( retractall(browser(Queue)),
                               retractall(skipped(Queue, _)) )),
     message_queue_destroy(Queue).
 

@@ -8,6 +8,7 @@
 :- use_module('../../../lib/peers', [peer_agent/4, with_peers/2]).
 :- use_module('../../../lib/texts', [write_file/2]).
 :- use_module(library(debug), [assertion/1]).
+:- use_module(library(http/websocket), [ws_receive/3]).
 :- use_module(library(lists), [member/2, sum_list/2]).
 :- use_module(library(plunit)).
 :- use_module(library(process),
@@ -799,6 +800,49 @@ slow(Slow, Quick, Sum, Fast) :-
     typhon_page_browsers:browsers_send(event(0, 'a@b:1', none, log(last))),
     counted(Slow, 0, 3001, Sum0),
     Sum is Sum0-1.
+
+%   A page that stops waits for a browser that is behind, and ends one that
+%   reads nothing.  The close frame of another browser shows that it stops.
+
+test(browser_that_is_behind_gets_a_close_frame, Said == [1000, 1000]-[]) :-
+    behind(reads, Said).
+test(browser_that_reads_nothing_is_ended, Said == [1000, none]-[]) :-
+    behind(waits, Said).
+
+behind(What, Codes-Printed) :-
+    no_leaks(with_settings([typhon_page_browsers:frame_events=20],
+        page(Base, with_feed(Base, Slow,
+                             with_feed(Base, Quick,
+                                       capturing(stopped(What, Slow, Quick,
+                                                         Codes), Printed)))))).
+
+stopped(What, Slow, Quick, [QuickCode, SlowCode]) :-
+    frame(Slow, _),
+    frame(Quick, _),
+    atom_length_of(1900, Text),
+    forall(between(1, 6000, N),
+           typhon_page_browsers:browsers_send(
+               event(N, 'a@b:1', none, log(Text)))),
+    thread_create(page_stop, Stopping),
+    closed(Quick, QuickCode),
+    (   What == reads
+    ->  closed(Slow, SlowCode),
+        thread_join(Stopping, true)
+    ;   thread_join(Stopping, true),
+        closed(Slow, SlowCode)
+    ).
+
+%   closed(+Feed, -Code): the code of the close frame, or `none`.
+
+closed(Feed, Code) :-
+    Feed = feed(Socket, _),
+    catch(ws_receive(Socket, Message, []), error(_, _), Message = _{}),
+    (   get_dict(code, Message, Code0)
+    ->  Code = Code0
+    ;   get_dict(opcode, Message, text)
+    ->  closed(Feed, Code)
+    ;   Code = none
+    ).
 
 atom_length_of(Length, Text) :-
     length(Codes, Length),
