@@ -203,7 +203,6 @@ browser_serve(Scene, WebSocket) :-
 
 report_end(error(io_error(_, _), _)) => true.
 report_end(error(socket_error(_, _), _)) => true.
-report_end(typhon_page(bye)) => true.
 report_end(crew_end) => true.
 report_end(Ball) => print_error(warning, Ball).
 
