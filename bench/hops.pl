@@ -3,7 +3,6 @@
 :- use_module(trip).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/wire/session), []).
-:- use_module(library(typhon/kernel/wire/writer), []).
 :- use_module(library(lists), [member/2, nth0/3]).
 
 /*  Hops between two processes, and a bare ping-pong of the same bytes.
@@ -106,7 +105,7 @@ sent(Peer, Bytes) :-
     atomic_list_concat([_, Endpoint], '@', Peer),
     (   typhon_session:route(Endpoint, Session),
         typhon_session:session_key(Session, Key),
-        typhon_writer:transport(Key, _, Out)
+        typhon_session:transport(Key, _, Out)
     ->  byte_count(Out, Bytes)
     ;   Bytes = 0
     ).

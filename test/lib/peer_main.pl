@@ -105,7 +105,7 @@ connecting :-
     typhon_threads:wire_thread(Thread),
     member(Prefix, [typhon_in_, typhon_out_]),
     sub_atom(Thread, 0, _, _, Prefix),
-    \+ typhon_writer:serving(_, Thread, _),
+    \+ typhon_session:serving(_, Thread, _),
     !.
 
 outcome_here(Id, Outcome) :-
@@ -227,5 +227,5 @@ give_answers :-
            typhon_request:endpoint_reply(ReplyTo, Answer)),
     unwrap_predicate(typhon_frame:frame_write/3, unsettled),
     forall(typhon_session:session(_, Session),
-           typhon_outbox:session_acknowledge(Session)).
+           typhon_session:session_acknowledge(Session)).
 

@@ -17,12 +17,12 @@ This is the interface of the layer: higher layers import from here.
             [ endpoint_ask_all/6, endpoint_call/5, endpoint_hand/4,
               endpoint_post/3, endpoint_post_by/4, endpoint_post_up/3,
               endpoint_request/4 ]).
-:- reexport(wire/outbox,
-            [endpoint_hand_over/2, endpoint_hand_to/2, endpoint_handed/2]).
+:- reexport(wire/session,
+            [ endpoint_hand_over/2, endpoint_hand_to/2, endpoint_handed/2,
+              frame_fits/1 ]).
 :- reexport(wire/request,
             [endpoint_later/1, endpoint_reply/2, endpoint_reply_later/2]).
 :- reexport(wire/kinds, [arrival_permitted/4]).
-:- reexport(wire/session, [frame_fits/1]).
 :- reexport(wire/lending, [endpoint_afterwards/1]).
 :- reexport(wire/waiting, [endpoint_flush/1, endpoint_flush/2]).
 :- reexport(wire/peer_cache,

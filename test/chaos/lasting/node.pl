@@ -125,10 +125,10 @@ obey(dies(P)) :-
 obey(power(P)) :-
     now(power, P).
 obey(cut) :-
-    forall(( typhon_writer:transport(Key, Thread, _),
+    forall(( typhon_session:transport(Key, Thread, _),
              typhon_session:session(Key, Session) ),
            typhon_session:session_locked(
-               Session, typhon_writer:transport_broken(Key, Thread))).
+               Session, typhon_session:transport_broken(Key, Thread))).
 
 obey(rest) :-
     begins(Name, _),
@@ -170,8 +170,8 @@ held(alarm(A)) :-
 held(fact(M:A)) :-
     member(M, [typhon_attempts,typhon_session,typhon_connection_manager,
                typhon_peer_cache,typhon_hop_ids,typhon_in_doubt,typhon_transfer,
-               typhon_arrival,typhon_whereabouts,typhon_home,typhon_news,typhon_unacked,
-               typhon_writer,typhon_settlement,typhon_outbox,typhon_committing,typhon_connection,
+               typhon_arrival,typhon_whereabouts,typhon_home,typhon_news,typhon_window,
+               typhon_session,typhon_session,typhon_session,typhon_committing,typhon_connection,
                typhon_lending]),
     current_predicate(M:F/N),
     functor(A, F, N),

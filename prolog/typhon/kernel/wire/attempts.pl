@@ -37,13 +37,12 @@ unless a process is expected there soon.
 :- use_module(connection, [outgoing/2]).
 :- use_module(peer_cache, [peer_expected/1, peer_missed/2]).
 :- use_module(request, [session_unfinished/1]).
-:- use_module(session, [route/2, session/2]).
+:- use_module(session, [route/2, route_up/2, session/2]).
 :- use_module(threads,
               [in_background/2, wire_thread_create/3, wire_thread_end/2]).
 :- use_module(waiting,
               [ waiting_first/2, waiting_met/2, waiting_missed/2,
                 waiting_number/1 ]).
-:- use_module(writer, [route_up/2]).
 
 :- setting(typhon_connection_manager:connect_time, number, 5,
            "Seconds until a peer is reported as unreachable").

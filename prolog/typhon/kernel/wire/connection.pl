@@ -40,15 +40,13 @@ connection on which the arbiter sends its count.
 :- use_module(lending, [lent_away/0]).
 :- use_module(reader, [read_frames/3]).
 :- use_module(session,
-              [ connection_is/2, route_add/2, session_adopting/2, session_open/5,
-                session_peer/3, session_to_self/1 ]).
+              [ connection_is/2, route_add/2, session_adopting/2,
+                session_install/4, session_left/0, session_lost/2,
+                session_open/4, session_peer/3, session_received/2,
+                session_retire/1, session_to_self/1, session_up_since/2 ]).
 :- use_module(transport,
               [ line_read/3, line_write/2, refusal_text/2, transport_close/0,
                 transport_first/2, transport_open/6 ]).
-:- use_module(unacked, [session_received/2, unacked_open/1]).
-:- use_module(writer,
-              [ session_install/4, session_left/0, session_lost/2,
-                session_retire/1, session_up_since/2 ]).
 
 :- multifile
     harmless/1,                 % Formal: a break that need not be reported
@@ -251,7 +249,7 @@ prove(server(_), In, Out, Me, Peer) :-
 join_session(Role, In, Out, Me, Peer-Proof, Session, Known) :-
     hello_codec(Me, Peer, Codec),
     session_keys(Role, Me, Peer, MyKey, Key),
-    session_open(Key, Peer-Proof, Codec, unacked_open, Session),
+    session_open(Key, Peer-Proof, Codec, Session),
     call(Known, Peer, Session),
     hello_peer(Peer, _, _, Address),
     debug(typhon(session), '~w: a connection, with ~w, ~w',

@@ -25,9 +25,9 @@ background thread.
                 attempts_due/1, attempts_end/0, session_reconnect/1 ]).
 :- use_module(peer_cache, [peer_gone/1]).
 :- use_module(request, [requests_lost/2, session_unfinished/1]).
-:- use_module(writer, [session_close/2, session_retire/1, session_up/1]).
 :- use_module(session,
-              [route_key/2, session/2, session_adopting/2, session_key/2]).
+              [ route_key/2, session/2, session_adopting/2, session_close/2,
+                session_key/2, session_retire/1, session_up/1 ]).
 :- use_module(threads,
               [ in_background/2, manager_start/2, manager_stop/0,
                 wire_thread_join/1 ]).

@@ -59,10 +59,8 @@ under the mutex of the endpoint.
 :- use_module(threads,
               [wire_thread_create/3, wire_thread_end/2, wire_threads_end/0]).
 :- use_module(lending, [lending_anew/0]).
-:- use_module(outbox, [session_control/2]).
+:- use_module(session, [session/2, session_close/2, session_control/2]).
 :- use_module(request, [requests_lost/2]).
-:- use_module(writer, [session_close/2]).
-:- use_module(session, [session/2]).
 :- use_module(transport,
               [ alone/1, alone_begin/1, alone_end/0, transport_begin/1,
                 transport_end/0 ]).

@@ -18,7 +18,7 @@
 A frame is a head of fifteen bytes and a body. The head has, big-endian, the
 length of the body in four bytes, a check in three, and two counts of four
 bytes each, counts(Received, Settled): how many frames of the other side this
-side has received, and how many of them are settled, see unacked.pl. Counts
+side has received, and how many of them are settled, see window.pl. Counts
 wrap around. A frame without body carries only its counts.
 
 The body is a string of codes 0..255, one term in one of two codecs:
@@ -299,7 +299,7 @@ member_culprit([Arg|Args], Culprit) :-
 		 *            BUNDLES           *
 		 *******************************/
 
-%   A bundle is smaller than the space for frames under way, see unacked.pl.
+%   A bundle is smaller than the space for frames under way, see window.pl.
 
 longest_part(512).
 most_parts(100).

@@ -30,11 +30,10 @@ The token goes to the thread that takes it first.
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/monotonic', [monotonic_time/1]).
-:- use_module(session, [session_adopting/2]).
+:- use_module(session, [session_adopting/2, session_lost/2]).
 :- use_module(threads,
               [ in_background/2, manager_notify/1, wire_thread_leaves/1,
                 wire_thread_obey/1 ]).
-:- use_module(writer, [session_lost/2]).
 :- use_module(transport, [transport_forget/0]).
 
 :- meta_predicate

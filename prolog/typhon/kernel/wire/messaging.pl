@@ -31,18 +31,17 @@ wait, and are not for the threads of the endpoint.
 :- use_module('../base/on_demand', [on_demand_load/2]).
 :- use_module(endpoint, [endpoint_address/1]).
 :- use_module(frame, [mobile_term/1]).
-:- use_module(outbox, [session_hand/4, session_send_with/2]).
+:- use_module(session,
+              [route/2, route_up/2, session_hand/4, session_send_with/2]).
 :- use_module(peer_cache, [endpoint_peer/2]).
 :- use_module(reader, [in_reader/0]).
 :- use_module(request,
               [ request_answer/2, request_forget/1, request_send/4, take_post/3,
                 take_request/4 ]).
-:- use_module(session, [route/2]).
 :- use_module(transport, [alone/1]).
 :- use_module(waiting,
               [ manager_connect/1, manager_connect/2, unsent/1, unsent_closed/4,
                 unsent_forget/1, unsent_request/4 ]).
-:- use_module(writer, [route_up/2]).
 
 :- meta_predicate
     endpoint_request(+, +, +, 1).

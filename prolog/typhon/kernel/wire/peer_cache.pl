@@ -29,10 +29,9 @@ error is recorded. The number of addresses is bounded, the oldest are discarded.
 :- use_module('../base/durable', [durable/5]).
 :- use_module('../base/durable_changes', [durable_drop/3, durable_put/4]).
 :- use_module(session,
-              [route/2, session_codec/2, session_key/2, session_proof/2]).
-:- use_module(settlement, [session_pending/2]).
+              [ route/2, route_up/2, session_codec/2, session_key/2,
+                session_pending/2, session_proof/2, session_up/1 ]).
 :- use_module(transport, [transport_proof/1, transport_unknown/1]).
-:- use_module(writer, [route_up/2, session_up/1]).
 
 :- setting(contacts, positive_integer, 10000,
            "Addresses of which the last process met is remembered").

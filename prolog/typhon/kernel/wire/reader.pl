@@ -26,21 +26,18 @@ are deferred while a frame is being handled and counted.
               [bundle_parts/2, bytes_mark/2, bytes_term/3, frame_read/4]).
 :- use_module(lending,
               [lend/3, lending_close/0, lending_open/4, lent/0]).
-:- use_module(outbox,
-              [ session_acknowledge/1, session_control/2, session_later/1,
-                session_later_begin/1, session_object/2, session_push/1 ]).
+:- use_module(session,
+              [ debug_frame/4, session_ack_due/2, session_acknowledge/1,
+                session_codec/2, session_control/2, session_count/2,
+                session_key/2, session_later/1, session_later_begin/1,
+                session_object/2, session_peer/3, session_push/1,
+                session_received/2, session_release/1, session_settled/4 ]).
 :- use_module(request,
               [ dispatch/2, dispatch_all/2, handed_over/2,
                 session_unfinished/1 ]).
-:- use_module(session,
-              [debug_frame/4, session_codec/2, session_key/2, session_peer/3]).
-:- use_module(settlement, [session_settled/4]).
 :- use_module(threads, [manager_notify/1]).
 :- use_module(transport, [transport_input/2]).
-:- use_module(unacked,
-              [ ack_frames/1, session_ack_due/2, session_count/2,
-                session_received/2 ]).
-:- use_module(writer, [session_release/1]).
+:- use_module(window, [ack_frames/1]).
 
 :- setting(silence, number, 5,
            "Seconds of silence before a peer is pinged").

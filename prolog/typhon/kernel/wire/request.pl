@@ -45,14 +45,12 @@ it is answered once.
 :- use_module('../base/on_demand',
               [on_demand_later/1, on_demand_load/2, on_demand_part/2]).
 :- use_module(kinds, [arrival_verdict/5]).
-:- use_module(outbox,
-              [ session_answer/2, session_object/2, session_owes/0,
-                session_send/2, session_send_later/2 ]).
-:- use_module(session, [session_key/2, session_peer/3, session_to_self/1]).
+:- use_module(session,
+              [ objection_answered/3, session_answer/2, session_key/2,
+                session_object/2, session_objected/3, session_owes/0,
+                session_peer/3, session_pending/2, session_received/2,
+                session_send/2, session_send_later/2, session_to_self/1 ]).
 :- use_module(transport, [transport_as/2, transport_proof/1]).
-:- use_module(settlement,
-              [objection_answered/3, session_objected/3, session_pending/2]).
-:- use_module(unacked, [session_received/2]).
 
 :- meta_predicate
     request_send(+, +, +, 1),

@@ -34,16 +34,14 @@ and the flushes are for any thread that may wait.
 :- use_module('../base/monotonic', [monotonic_time/1, wait_before/2]).
 :- use_module('../base/durable_changes', [commit_changes/0]).
 :- use_module('../base/error_text', [print_error/2]).
-:- use_module(outbox, [session_mark/2]).
+:- use_module(session,
+              [ route/2, session/2, session_key/2, session_mark/2,
+                session_peer/3, session_pending/2, session_up/1 ]).
 :- use_module(peer_cache, [peer_expected/1]).
 :- use_module(request,
               [ request_answer/2, request_forget/1, request_send/4,
                 request_take/3 ]).
-:- use_module(session,
-              [route/2, session/2, session_key/2, session_peer/3]).
-:- use_module(settlement, [session_pending/2]).
 :- use_module(threads, [in_manager/0, manager_notify/1]).
-:- use_module(writer, [session_up/1]).
 
 :- meta_predicate
     unsent_request(+, +, +, 1),

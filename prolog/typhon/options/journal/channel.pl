@@ -33,7 +33,7 @@ takes each post once, in order, and notes its arrival together with its effects.
 It sends again(To) if a post is missing, and had(To, N) when it has taken one.
 It need not keep a journal itself.
 
-The window of a session, see typhon_unacked, is different: it numbers frames
+The window of a session, see typhon_window, is different: it numbers frames
 one by one, keeps bytes in a queue, and ends with the process.  Here the items
 of the journal are the window: their numbers have gaps, and an item may be
 dropped from the middle.  A frame kept as a fact costs three times as much as a

@@ -136,7 +136,7 @@ test(invalid_bundle,
 
 bundle_sent(Address, Bundle) :-
     once(typhon_session:route(Address, Session)),
-    typhon_outbox:session_send(Session, Bundle).
+    typhon_session:session_send(Session, Bundle).
 
 :- end_tests(bundles).
 

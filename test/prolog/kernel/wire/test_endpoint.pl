@@ -334,7 +334,7 @@ test(post_before_its_deadline_waits_for_the_next_connection,
         ( endpoint_post(A, note, 0),
           endpoint_flush(20),
           typhon_session:route(A, Session),
-          typhon_writer:session_retire(Session),
+          typhon_session:session_retire(Session),
           with_held(
               typhon_connection:send_count(_, _),
               thread_create(typhon_waiting:manager_connect(A), Connects),
@@ -371,7 +371,7 @@ gives_up(Address) :-
 
 test(connection_is_reported_even_if_its_thread_ends) :-
     fresh(with_peer(A,
-        ( wrap_predicate(typhon_writer:session_install(_, _, _, _),
+        ( wrap_predicate(typhon_session:session_install(_, _, _, _),
                          told_to_end, Wrapped,
                          ( Wrapped, test_endpoint:told_to_end )),
           assertz(test_endpoint:to_end),
@@ -486,7 +486,7 @@ acknowledge(Session, Count) :-
     arg(3, Window, Received),
     get_flag(Received, Count0),
     set_flag(Received, Count),
-    typhon_outbox:session_acknowledge(Session),
+    typhon_session:session_acknowledge(Session),
     set_flag(Received, Count0).
 
 :- meta_predicate

@@ -14,8 +14,7 @@ The endpoint is connected to itself: its own reader threads read its posts.
 :- use_module(library(typhon/kernel/wire)).
 :- use_module(library(typhon/kernel/wire/waiting),
               [manager_connect/1]).
-:- use_module(library(typhon/kernel/wire/outbox), [session_send/2]).
-:- use_module(library(typhon/kernel/wire/session), [route/2]).
+:- use_module(library(typhon/kernel/wire/session), [route/2, session_send/2]).
 :- use_module(library(typhon/kernel/wire/threads), [wire_thread_signal/2]).
 
 :- dynamic
@@ -203,7 +202,7 @@ test(broken_connections_lose_and_duplicate_nothing, Ran == All) :-
     alone(Me, ( forall(member(N, All),
                        ( post(Me, quick(N)),
                          (   N mod 50 =:= 0
-                         ->  forall(typhon_writer:serving(_, Thread, _),
+                         ->  forall(typhon_session:serving(_, Thread, _),
                                     wire_thread_signal(Thread, broken))
                          ;   true
                          ) )),

@@ -10,10 +10,8 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
 :- use_module(library(typhon/kernel/wire/frame), [frame_overhead/1]).
-:- use_module(library(typhon/kernel/wire/session),
-              [session_forget/1, session_open/5, session_window/2]).
-:- use_module(library(typhon/kernel/wire/settlement)).
-:- use_module(library(typhon/kernel/wire/unacked)).
+:- use_module(library(typhon/kernel/wire/session)).
+:- use_module(library(typhon/kernel/wire/window)).
 
 %   with_window(-Session, -Window, -Out, :Goal): those of a session that has
 %   sent and received nothing.
@@ -23,16 +21,17 @@
 with_window(Session, Window, Out, Goal) :-
     Hello = hello(p, 1, 'h:1', 90004, 64, none),
     setup_call_cleanup(
-        ( session_open(key, Hello-cookie, text, unacked_open, Session),
-          session_window(Session, Window),
+        ( session_open(key, Hello-cookie, text, Session),
+          typhon_session:session_window(Session, Window),
           open_null_stream(Out) ),
         once(Goal),
         ( close(Out), ignore(closed(Session, _)) )).
 
 closed(Session, Handed) :-
     session_forget(Session),
-    unacked_close(Session, _, Sent, Unsent),
-    settled_never(key, Sent, Unsent, Handed).
+    typhon_session:session_window(Session, Window),
+    window_close(Window, _, Sent, Unsent),
+    typhon_session:settled_never(key, Sent, Unsent, Handed).
 
 received(Session, Count) :-
     forall(between(1, Count, _), session_count(Session, _)).
@@ -40,7 +39,7 @@ received(Session, Count) :-
 %   hands_over(+Window, +Out, +Token): a frame of 10 bytes.
 
 hands_over(Window, Out, Token) :-
-    unacked_sent(Window, Out, "0123456789", Token, _).
+    window_sent(Window, Out, "0123456789", Token, _).
 
 settled(Session, R, S, Settled) :-
     session_settled(Session, counts(R, S), Settled, _).
@@ -54,38 +53,38 @@ test(frame_that_waits_settles_what_was_settled_when_it_was_put,
      [R, S] == [3, 1]) :-
     with_window(Session, Window, Out,
         ( received(Session, 1),
-          unacked_waits(Window, "x", none),
+          window_wait(Window, "x", none),
           received(Session, 2),
-          unacked_next(Session, Out, all, counts(R, S), "x") )).
+          window_next(Window, text, Out, all, counts(R, S), "x") )).
 test(frame_that_is_sent_again_settles_what_it_did_before,
      [R, S] == [3, 1]) :-
     with_window(Session, Window, Out,
         ( received(Session, 1),
           hands_over(Window, Out, none),
           received(Session, 2),
-          unacked_resumed(Session, 0, 0, [], [Frame]),
-          unacked_counts(Session, Frame, counts(R, S), _) )).
+          window_resumed(Window, 0, 0, [], [Frame]),
+          window_counts(Window, Frame, counts(R, S), _) )).
 test(frame_that_is_written_before_those_that_wait_settles_no_more,
      [R, S] == [3, 1]) :-
     with_window(Session, Window, Out,
         ( received(Session, 1),
           hands_over(Window, Out, none),
           received(Session, 2),
-          unacked_waits(Window, "objection", none),
-          unacked_control(Window, Out, all, "", counts(R, S)) )).
+          window_wait(Window, "objection", none),
+          window_control(Window, Out, all, "", counts(R, S)) )).
 test(resumed_count_settles_nothing,
      [Before, After] == [[], [settled(t(1), 1, accepted)]]) :-
     with_window(Session, Window, Out,
         ( hands_over(Window, Out, t(1)),
-          unacked_resumed(Session, 1, 0, Handed, []),
-          unsettled_add(key, Handed),
+          window_resumed(Window, 1, 0, Handed, []),
+          typhon_session:unsettled_add(key, Handed),
           settled(Session, 1, 0, Before),
           settled(Session, 1, 1, After) )).
 test(frames_that_the_peer_has_are_not_sent_again, Again == ["b", "c"]) :-
-    with_window(Session, Window, Out,
+    with_window(_, Window, Out,
         ( forall(member(Bytes, ["a", "b", "c"]),
-                 unacked_sent(Window, Out, Bytes, none, _)),
-          unacked_resumed(Session, 1, 0, _, Frames),
+                 window_sent(Window, Out, Bytes, none, _)),
+          window_resumed(Window, 1, 0, _, Frames),
           findall(B, member(frame(B, _, _), Frames), Again) )).
 test(settled_frame_is_accepted_or_has_the_first_objection,
      [All, Rest] == [[settled(t(1), 1, accepted), settled(t(2), 2, full)],
@@ -125,7 +124,7 @@ test(hand_overs_of_a_closed_session_are_lost_or_unsent,
                  handed(t(4), unsent) ]) :-
     with_window(Session, Window, Out,
         ( forall(member(T, [1, 2, 3]), hands_over(Window, Out, t(T))),
-          unacked_waits(Window, "x", t(4)),
+          window_wait(Window, "x", t(4)),
           settled(Session, 2, 0, []),
           session_objected(Session, 2, full),
           closed(Session, Handed) )).
@@ -136,8 +135,8 @@ test(hand_overs_of_a_closed_session_are_lost_or_unsent,
 
 test(frame_does_not_overtake_those_that_wait, fail) :-
     with_window(_, Window, Out,
-        ( unacked_waits(Window, "first", none),
-          unacked_sent(Window, Out, "second", none, _) )).
+        ( window_wait(Window, "first", none),
+          window_sent(Window, Out, "second", none, _) )).
 
 %   The null stream counts the bytes that are written to it.
 
@@ -148,24 +147,24 @@ test(frames_of_64_kB_are_under_way_at_most, Written == 4) :-
     with_window(_, Window, Out,
         aggregate_all(count,
                       ( between(1, 10, _),
-                        unacked_sent(Window, Out, Bytes, none, _),
+                        window_sent(Window, Out, Bytes, none, _),
                         long(Head, Space),
                         format(Out, "~s~s", [Space, Bytes]) ),
                       Written)).
 test(acknowledged_frame_makes_room, Waits == true) :-
     long(60000, Bytes),
     with_window(Session, Window, Out,
-        ( unacked_sent(Window, Out, Bytes, none, _),
+        ( window_sent(Window, Out, Bytes, none, _),
           frame_overhead(Head),
           Written is 60000+Head,
           long(Written, Text),
           write(Out, Text),
-          (   unacked_sent(Window, Out, Bytes, none, _)
+          (   window_sent(Window, Out, Bytes, none, _)
           ->  Waits = false
           ;   Waits = true
           ),
           settled(Session, 1, 0, _),
-          unacked_sent(Window, Out, Bytes, none, _) )).
+          window_sent(Window, Out, Bytes, none, _) )).
 test(count_of_more_than_was_sent,
      error(domain_error(acknowledged, 2))) :-
     with_window(Session, Window, Out,

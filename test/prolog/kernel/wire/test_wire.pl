@@ -142,10 +142,10 @@ test(offered_connection_is_accepted) :-
     as_process(ffffffffffffffff,
         fresh(with_peers(1, [A],
             setup_call_cleanup(
-                wrap_predicate(typhon_writer:session_up_since(_, _),
+                wrap_predicate(typhon_session:session_up_since(_, _),
                                not_noticed, _, true),
                 ask(A, echo, x, x),
-                unwrap_predicate(typhon_writer:session_up_since/2,
+                unwrap_predicate(typhon_session:session_up_since/2,
                                  not_noticed))))).
 test(sixteen_processes_connect_to_each_other, Missed == []) :-
     fresh(with_peers(16, Addresses,

@@ -400,13 +400,13 @@ answered_later(Written, Dir) :-
         ( endpoint_address(Me),
           typhon_waiting:manager_connect(Me),
           typhon_session:session(self_server, Session),
-          typhon_outbox:session_later_begin(Session),
+          typhon_session:session_later_begin(Session),
           sync_changes,
-          typhon_unacked:session_unacked(Session, Before),
+          typhon_session:session_unacked(Session, Before),
           with_mutex(typhon_commit,     % no other thread commits
                      ( change(put(1, 1)),
-                       typhon_outbox:session_send_later(Session, bundle([])),
-                       typhon_unacked:session_unacked(Session, After) )),
+                       typhon_session:session_send_later(Session, bundle([])),
+                       typhon_session:session_unacked(Session, After) )),
           Written is After-Before,
           nb_delete(typhon_later) )).
 

@@ -1,29 +1,31 @@
-:- module(typhon_unacked,
-          [ unacked_open/1,             % -Window
-            unacked_sent/5,             % +Window, +Out, +Bytes, +Token, -Counts
-            unacked_waits/3,            % +Window, +Bytes, +Token
-            unacked_waiting/1,          % +Session
-            unacked_owed/2,             % +Session, -Waiting
-            unacked_next/5,             % +Session, +Out, +Most, -Counts, -Bytes
-            unacked_control/5,          % +Window, +Out, +Most, +Bytes, -Counts
-            unacked_settled/1,          % +Window
-            unacked_counts/4,           % +Session, +Frame, -Counts, -Bytes
-            unacked_resumed/5,          % +Session, +Count, +Bytes, -Handed,
+:- module(typhon_window,
+          [ window_open/1,              % -Window
+            window_sent/5,              % +Window, +Out, +Bytes, +Token, -Counts
+            window_wait/3,              % +Window, +Bytes, +Token
+            window_waiting/1,           % +Window
+            window_owed/2,              % +Window, -Waiting
+            window_next/6,              % +Window, +Codec, +Out, +Most, -Counts,
+                                        % -Bytes
+            window_control/5,           % +Window, +Out, +Most, +Bytes, -Counts
+            window_settled/1,           % +Window
+            window_counts/4,            % +Window, +Frame, -Counts, -Bytes
+            window_resumed/5,           % +Window, +Count, +Bytes, -Handed,
                                         % -Frames
-            unacked_close/4,            % +Session, -Waiting, -Sent, -Unsent
-            ack_frames/1,               % -Count
-            session_acked/4,            % +Session, +Received, -Handed,
-                                        % -Waiting
-            session_under_way/2,        % +Session, +Number
-            session_unacked/2,          % +Session, -Count
-            session_received/2,         % +Session, -Count
-            session_count/2,            % +Session, -AckDue
-            session_ack_due/2           % +Session, -Count
+            window_close/4,             % +Window, -Waiting, -Sent, -Unsent
+            window_ahead/3,             % +Window, +Received, -Ahead
+            window_acked/4,             % +Window, +Ahead, -Handed, -Waiting
+            window_under_way/2,         % +Window, +Number
+            window_unacked/2,           % +Window, -Count
+            window_received/2,          % +Window, -Count
+            window_count/2,             % +Window, -AckDue
+            window_ack_due/2,           % +Window, -Count
+            ack_frames/1                % -Count
           ]).
 
 /** <module> The window: frames that wait or are not acknowledged
 
-Frames are numbered by counting on both sides. The window of a session is
+Frames are numbered by counting on both sides. The window of a session, see
+session.pl, is
 
     window(Sent, Waiting, Received, AckSent, Acked, AckedBytes, Settled,
            Bundle)
@@ -42,29 +44,28 @@ does not settle the frame of the objection. The number of frames that the peer
 has received is a count of its own: it opens the window.
 
 A Token is `none`, `loose`, or the compound term of a hand-over, which becomes
-Number-Token, see settlement.pl.
+Number-Token.
 
-*Threading*: the mutex of the session guards its window: a caller of unacked_*
-holds it. session_count/2 and session_acked/4 are for the thread of the
-connection, the other session_* are for any thread.
+*Threading*: the mutex of the session guards its window: a caller holds it, but
+for those who only look: window_ahead/3, window_under_way/2, window_unacked/2,
+window_received/2 and window_ack_due/2.  Of the others, window_count/2 is for
+the thread of the connection, without the mutex.
 */
 
 :- use_module(library(error), [domain_error/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/fifo', [fifo_empty/2, fifo_size/2]).
 :- use_module(frame, [bundle_next/5, count_ahead/3, frame_overhead/1]).
-:- use_module(session,
-              [session_codec/2, session_held/2, session_window/2]).
 
 :- dynamic
     free_flags/1.                       % Flags: no window has them
 
-%!  unacked_open(-Window) is det.
+%!  window_open(-Window) is det.
 %
 %   A new window.  Flags are never freed, so those of windows that were closed
 %   are used again.
 
-unacked_open(Window) :-
+window_open(Window) :-
     message_queue_create(Sent),
     message_queue_create(Waiting),
     (   retract(free_flags(Flags))
@@ -89,12 +90,12 @@ unacked_open(Window) :-
 
 ack_frames(32).
 
-%!  unacked_sent(+Window, +Out, +Bytes, +Token, -Counts) is semidet.
+%!  window_sent(+Window, +Out, +Bytes, +Token, -Counts) is semidet.
 %
 %   The frame is about to be written to Out, with Counts in its head.  Fails if
 %   other frames wait, or writing might block.
 
-unacked_sent(Window, Out, Bytes, Token, counts(Count, Count)) :-
+window_sent(Window, Out, Bytes, Token, counts(Count, Count)) :-
     Window = window(Sent, Waiting, Received, AckSent, _, _, Settled, _),
     message_queue_property(Waiting, size(0)),
     space(room, Window, Out, Space),
@@ -115,33 +116,30 @@ space(room, window(_, _, _, _, _, AckedBytes, _, _), Out, Space) :-
     Space is 65536-(Written-Acked).
 space(all, _, _, inf).
 
-%!  unacked_waits(+Window, +Bytes, +Token) is det.
+%!  window_wait(+Window, +Bytes, +Token) is det.
 %
 %   Let the frame wait.  If Token is `loose` it may later be bundled with
 %   others.
 
-unacked_waits(window(_, Waiting, Received, _, _, _, _, _), Bytes, Token) :-
+window_wait(window(_, Waiting, Received, _, _, _, _, _), Bytes, Token) :-
     get_flag(Received, Count),
     thread_send_message(Waiting, frame(Bytes, Token, Count)).
 
-%!  unacked_waiting(+Session) is semidet.
+%!  window_waiting(+Window) is semidet.
 %
 %   Some frame waits.
 
-unacked_waiting(Session) :-
-    session_window(Session, window(_, Waiting, _, _, _, _, _, _)),
+window_waiting(window(_, Waiting, _, _, _, _, _, _)) :-
     fifo_size(Waiting, Size),
     Size > 0.
 
-%!  unacked_owed(+Session, -Waiting) is semidet.
+%!  window_owed(+Window, -Waiting) is semidet.
 %
 %   So much was written that the peer is sure to acknowledge some of it: it
 %   acknowledges each bundle, and other frames after ack_frames/1.  The number
 %   of frames that wait is Waiting.
 
-unacked_owed(Session, Size) :-
-    session_window(Session,
-                   window(Sent, Waiting, _, _, Acked, _, _, Bundle)),
+window_owed(window(Sent, Waiting, _, _, Acked, _, _, Bundle), Size) :-
     get_flag(Acked, Count),
     (   get_flag(Bundle, Last),
         Last > Count
@@ -152,47 +150,43 @@ unacked_owed(Session, Size) :-
     ),
     message_queue_property(Waiting, size(Size)).
 
-%!  unacked_next(+Session, +Out, +Most, -Counts, -Bytes) is semidet.
+%!  window_next(+Window, +Codec, +Out, +Most, -Counts, -Bytes) is semidet.
 %
 %   The frame that has waited longest is about to be written to Out.  Fails if
 %   there is no room for it, unless Most is `all`.
 
-unacked_next(Session, Out, Most, Counts, Bytes) :-
-    session_codec(Session, Codec),
-    session_window(Session, Window),
+window_next(Window, Codec, Out, Most, Counts, Bytes) :-
     Window = window(Sent, Waiting, _, _, _, _, _, Bundle),
     space(Most, Window, Out, Space),
     bundle_next(Waiting, Codec, Space, Frame, Many),
     !,
     thread_send_message(Sent, Frame),
     (   Many == true
-    ->  session_sent(Session, Count),
+    ->  written(Window, Count),
         set_flag(Bundle, Count)
     ;   true
     ),
-    unacked_counts(Session, Frame, Counts, Bytes).
+    window_counts(Window, Frame, Counts, Bytes).
 
-%!  unacked_counts(+Session, +Frame, -Counts, -Bytes) is det.
+%!  window_counts(+Window, +Frame, -Counts, -Bytes) is det.
 %
 %   Frame is about to be written, maybe once more.  It settles only frames that
 %   were received when it was put, since an objection may wait behind it.
 
-unacked_counts(Session, frame(Bytes, _, Settled), counts(Count, Settled),
-               Bytes) :-
-    session_window(Session,
-                   window(_, _, Received, AckSent, _, _, SettledFlag, _)),
+window_counts(window(_, _, Received, AckSent, _, _, SettledFlag, _),
+              frame(Bytes, _, Settled), counts(Count, Settled), Bytes) :-
     get_flag(Received, Count),
     set_flag(AckSent, Count),
     set_flag(SettledFlag, Settled).
 
-%!  unacked_control(+Window, +Out, +Most, +Bytes, -Counts) is semidet.
+%!  window_control(+Window, +Out, +Most, +Bytes, -Counts) is semidet.
 %
 %   Bytes are about to be written outside the count, if there is room, or Most
 %   is `all`.  The peer does not acknowledge them, so they are not under way.
 %   They precede frames that wait: if these may include an objection, that is,
 %   if Most is `all`, they settle no more than was written before.
 
-unacked_control(Window, Out, Most, Bytes, counts(Count, Settled)) :-
+window_control(Window, Out, Most, Bytes, counts(Count, Settled)) :-
     Window = window(_, _, Received, AckSent, _, AckedBytes, SettledFlag, _),
     space(Most, Window, Out, Space),
     string_length(Bytes, Length),
@@ -209,12 +203,12 @@ unacked_control(Window, Out, Most, Bytes, counts(Count, Settled)) :-
     Acked is Acked0+Length+Head,
     set_flag(AckedBytes, Acked).
 
-%!  unacked_settled(+Window) is semidet.
+%!  window_settled(+Window) is semidet.
 %
 %   To be called if nothing waits. Fails if no frame has settled the last frames
 %   received: one outside the count must settle them now.
 
-unacked_settled(window(_, _, Received, _, _, _, Settled, _)) :-
+window_settled(window(_, _, Received, _, _, _, Settled, _)) :-
     get_flag(Received, Count),
     (   get_flag(Settled, Count)
     ->  true
@@ -222,15 +216,14 @@ unacked_settled(window(_, _, Received, _, _, _, Settled, _)) :-
         fail
     ).
 
-%!  unacked_resumed(+Session, +Count, +Bytes, -Handed, -Frames) is det.
+%!  window_resumed(+Window, +Count, +Bytes, -Handed, -Frames) is det.
 %
 %   The session has a new connection, to which Bytes were written.  The peer has
 %   received Count frames of this process, Handed among them; that settles none.
 %   Frames have to be written once more.  The Count of a peer that has forgotten
 %   the session, while this process has not, may exceed what was sent.
 
-unacked_resumed(Session, Count, Bytes, Handed, Frames) :-
-    session_window(Session, Window),
+window_resumed(Window, Count, Bytes, Handed, Frames) :-
     Window = window(Sent, _, _, AckSent, Acked, AckedBytes, Settled, _),
     get_flag(Acked, Count0),
     message_queue_property(Sent, size(Size)),
@@ -247,14 +240,13 @@ unacked_resumed(Session, Count, Bytes, Handed, Frames) :-
     ;   true
     ).
 
-%!  unacked_close(+Session, -Waiting, -Sent, -Unsent) is det.
+%!  window_close(+Window, -Waiting, -Sent, -Unsent) is det.
 %
 %   The session is over: the frames Waiting were never written.  Unsent are the
 %   tokens of hand-overs among these, Sent the hand-overs that were written, and
 %   that the peer may have received.
 
-unacked_close(Session, Waiting, Sent, Unsent) :-
-    session_window(Session, Window),
+window_close(Window, Waiting, Sent, Unsent) :-
     Window =.. [window, SentQueue, WaitingQueue|Flags],
     arg(5, Window, Acked),
     get_flag(Acked, Count),
@@ -272,32 +264,31 @@ unacked_close(Session, Waiting, Sent, Unsent) :-
 		 *       ACKNOWLEDGEMENTS       *
 		 *******************************/
 
-%!  session_acked(+Session, +Received, -Handed:list, -Waiting:integer)
-%!      is semidet.
+%!  window_ahead(+Window, +Received, -Ahead) is semidet.
 %
-%   The peer has Received so many frames, as read in a head; fails if that was
-%   known. Handed are the hand-overs among the frames that are acknowledged now.
-%   Waiting frames were not written yet.
+%   The peer has Received so many frames, as read in a head: Ahead more than it
+%   was known to have.  Fails if it has no more.
+
+window_ahead(window(_, _, _, _, Acked, _, _, _), Received, Ahead) :-
+    get_flag(Acked, Count),
+    count_ahead(Count, Received, Ahead),
+    Ahead > 0.
+
+%!  window_acked(+Window, +Ahead, -Handed:list, -Waiting:integer) is det.
+%
+%   Ahead is that of window_ahead/3. Handed are the hand-overs among the frames
+%   that are acknowledged now. Waiting frames were not written yet.
 %
 %   @error domain_error(acknowledged, Count) if that is more than was sent
 
-session_acked(Session, Received, Handed, Waiting) :-
-    session_window(Session, Window),
-    arg(5, Window, Acked),
-    get_flag(Acked, Count),
-    count_ahead(Count, Received, Ahead),
-    Ahead > 0,
-    session_held(Session, acked(Ahead, Count, Window, Handed, Waiting)).
-
-%   Only the thread of the connection changes Acked.
-
-acked(Ahead, Count0, Window, Handed, Waiting) :-
+window_acked(Window, Ahead, Handed, Waiting) :-
     Window = window(Sent, Queue, _, _, Acked, AckedBytes, _, _),
     message_queue_property(Sent, size(Size)),
     (   Ahead =< Size
     ->  true
     ;   domain_error(acknowledged, Ahead)
     ),
+    get_flag(Acked, Count0),
     take_received(Ahead, Count0, Sent, Handed, 0, Bytes),
     Count is Count0+Ahead,
     set_flag(Acked, Count),
@@ -325,60 +316,55 @@ take_received(Ahead, N0, Sent, Handed, Bytes0, Bytes) :-
     Ahead1 is Ahead-1,
     take_received(Ahead1, N, Sent, Handed1, Bytes1, Bytes).
 
-%!  session_under_way(+Session, +Number) is semidet.
+%!  window_under_way(+Window, +Number) is semidet.
 %
 %   The frame of that Number was written, and is not acknowledged.
 
-session_under_way(Session, Number) :-
-    session_window(Session, window(_, _, _, _, Acked, _, _, _)),
+window_under_way(Window, Number) :-
+    Window = window(_, _, _, _, Acked, _, _, _),
     get_flag(Acked, Count),
     Number > Count,
-    session_sent(Session, Sent),
+    written(Window, Sent),
     Number =< Sent.
 
-%   session_sent(+Session, -Count): Count frames have been written, or fewer if
+%   written(+Window, -Count): Count frames have been written, or fewer if
 %   another thread is about to write some.
 
-session_sent(Session, Count) :-
-    session_window(Session, window(Sent, _, _, _, Acked, _, _, _)),
+written(window(Sent, _, _, _, Acked, _, _, _), Count) :-
     get_flag(Acked, Gone),
     fifo_size(Sent, Size),
     Count is Gone+Size.
 
-%!  session_unacked(+Session, -Count) is det.
+%!  window_unacked(+Window, -Count) is det.
 %
 %   Count frames wait, or are not acknowledged.
 
-session_unacked(Session, Count) :-
-    session_window(Session, window(Sent, Waiting, _, _, _, _, _, _)),
+window_unacked(window(Sent, Waiting, _, _, _, _, _, _), Count) :-
     fifo_size(Sent, S),
     fifo_size(Waiting, W),
     Count is S+W.
 
-%!  session_received(+Session, -Count) is det.
+%!  window_received(+Window, -Count) is det.
 %
 %   Count frames of the peer have been received.
 
-session_received(Session, Count) :-
-    session_window(Session, window(_, _, Received, _, _, _, _, _)),
+window_received(window(_, _, Received, _, _, _, _, _), Count) :-
     get_flag(Received, Count).
 
-%!  session_ack_due(+Session, -Count) is det.
+%!  window_ack_due(+Window, -Count) is det.
 %
 %   Count received frames are not acknowledged yet.
 
-session_ack_due(Session, Count) :-
-    session_window(Session, window(_, _, Received, AckSent, _, _, _, _)),
+window_ack_due(window(_, _, Received, AckSent, _, _, _, _), Count) :-
     get_flag(Received, All),
     get_flag(AckSent, Known),
     Count is All-Known.
 
-%!  session_count(+Session, -AckDue) is det.
+%!  window_count(+Window, -AckDue) is det.
 %
 %   Count one more frame as received.  Then AckDue are not acknowledged yet.
 
-session_count(Session, AckDue) :-
-    session_window(Session, window(_, _, Received, AckSent, _, _, _, _)),
+window_count(window(_, _, Received, AckSent, _, _, _, _), AckDue) :-
     get_flag(Received, Count0),
     Count is Count0+1,
     set_flag(Received, Count),
