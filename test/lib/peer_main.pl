@@ -109,7 +109,7 @@ connecting :-
     !.
 
 outcome_here(Id, Outcome) :-
-    typhon_home:agent_outcome(Id, Outcome).
+    typhon_whereabouts:agent_outcome(Id, Outcome).
 
 %   Without an index on Id: SWI-Prolog 9.0.4 may list a clause twice in an
 %   index that is made while clauses are added.

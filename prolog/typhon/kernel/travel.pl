@@ -16,13 +16,12 @@ This is the interface of the layer: higher layers import from here.
               transfer_traveller/3 ]).
 :- reexport(travel/in_doubt, [in_doubt/1, out_of_touch/1]).
 :- use_module(travel/arrival, []).
-:- reexport(travel/home,
-              [ agent_born/2, agent_outcome/2, home_agents/1, home_agents_at/2,
-                home_knows/4, outcome_wait/3 ]).
-:- reexport(travel/outcomes, [clone_born/2, clones_ask/3, results_ask/4]).
 :- reexport(travel/whereabouts,
-              [ agent_ended/4, agent_ends/2, agent_faulty/5, agent_resumed/3,
-                agent_resumed_from/3, ended_agent/1, whereabouts/2 ]).
+            [ agent_born/2, agent_ended/4, agent_ends/2, agent_faulty/5,
+              agent_outcome/2, agent_resumed/3, agent_resumed_from/3,
+              ended_agent/1, home_agents/1, home_agents_at/2, home_knows/4,
+              outcome_wait/3, whereabouts/2 ]).
+:- reexport(travel/outcomes, [clone_born/2, clones_ask/3, results_ask/4]).
 :- reexport(travel/post, [post/3, post_on/2, post_via/4]).
 :- reexport(travel/routing, [mail_lost/3]).
 :- reexport(travel/backlog, [post_tried/0, retries_go_on/0]).

@@ -170,7 +170,7 @@ held(alarm(A)) :-
 held(fact(M:A)) :-
     member(M, [typhon_attempts,typhon_session,typhon_connection_manager,
                typhon_peer_cache,typhon_hop_ids,typhon_in_doubt,typhon_transfer,
-               typhon_arrival,typhon_whereabouts,typhon_home,typhon_news,typhon_window,
+               typhon_arrival,typhon_whereabouts,typhon_whereabouts,typhon_news,typhon_window,
                typhon_session,typhon_session,typhon_session,typhon_committing,typhon_connection,
                typhon_lending]),
     current_predicate(M:F/N),

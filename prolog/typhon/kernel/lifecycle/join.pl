@@ -14,7 +14,7 @@
 
 /** <module> Waiting for the end of agents, and for their results
 
-The caller asks the home of the agent, see typhon_home, which answers when it
+The caller asks the home of the agent, see typhon_whereabouts, which answers when it
 has the outcome.
 
 *Threading*: any thread.

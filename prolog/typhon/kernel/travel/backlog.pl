@@ -19,7 +19,7 @@
 :- use_module('../wire', [endpoint_gone/1, endpoint_peer/2]).
 :- use_module('../host', [alarm_in/3, scheduler_call/1]).
 :- use_module('../agent', [with_agent/2]).
-:- use_module(home, [agent_outcome/2]).
+:- use_module(whereabouts, [agent_outcome/2]).
 :- use_module(routing,
               [mail_lost/3, one_letter/2, way_in/2, way_out/3, way_send/3]).
 

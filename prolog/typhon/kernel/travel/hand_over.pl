@@ -22,8 +22,7 @@
                 with_agent/2 ]).
 :- use_module(backlog, [backlog/1]).
 :- use_module(post, [post_on/2]).
-:- use_module(whereabouts,
-              [agent_comes_anew/3, agent_came/4, agent_went/5]).
+:- use_module(whereabouts, [agent_came/4, agent_comes_anew/3, agent_went/5]).
 
 /** <module> Hand-over: the short form of a hop
 

@@ -17,7 +17,7 @@
 :- use_module('../base/durable_changes',
               [commits_must_succeed/0, crash_point/1, durable_on/0]).
 :- use_module(in_doubt, [may_have_arrived/1, resolve_in_doubt/1]).
-:- use_module(home, [agent_born/2]).
+:- use_module(whereabouts, [agent_born/2]).
 :- use_module(hand_over, []).
 :- use_module(outcomes, [clone_born/2]).
 :- use_module(within, [hop_within/6]).

@@ -18,8 +18,8 @@
               [ transfer_again/2, transfer_arrived/1, transfer_image/2,
                 transfer_open/1, transfer_repeated/2, transfer_stays/2,
                 transfer_traveller/3, transfer_unreachable/1 ]).
-:- use_module(home, [agent_outcome/2]).
-:- use_module(whereabouts, [agent_heard_of/2, agent_last_seen/2]).
+:- use_module(whereabouts,
+              [agent_heard_of/2, agent_last_seen/2, agent_outcome/2]).
 
 /** <module> Transfers in doubt
 

@@ -18,10 +18,9 @@
 :- use_module('../agent',
               [ agent/5, agent_home_endpoint/2, agent_mail/2,
                 mail_fitting/4 ]).
-:- use_module(home, [agent_outcome/2]).
+:- use_module(whereabouts, [agent_outcome/2, whereabouts/2]).
 :- use_module(sender_authorization,
               [mail_routes/4, senders_checked/0, with_proof/5]).
-:- use_module(whereabouts, [whereabouts/2]).
 
 /** <module> Routing of letters, and dead letters
 

@@ -266,7 +266,7 @@ arrives(news, whereabouts, resumed(Id:name, _:number, _:count), agents,
         agent(Id), whereabouts).
 arrives(request, whereabouts, reached(Id:name, _:count), agents, agent(Id),
         in_doubt).
-arrives(request, join, join(Id:name, _:term), watch, agent(Id), home).
+arrives(request, join, join(Id:name, _:term), watch, agent(Id), whereabouts).
 arrives(request, results, left(Id:name, _:name), watch, agent(Id), outcomes).
 arrives(request, results, clones(Id:name), watch, agent(Id), outcomes).
 

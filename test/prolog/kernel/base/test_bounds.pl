@@ -15,8 +15,8 @@
 
 table(Setting, Module, Goal, I) :-
     member(t(Setting, Module, Goal),
-           [ t(typhon_whereabouts:outcomes, typhon_home,
-               typhon_home:home_ended(Id, done, 1, [])),
+           [ t(typhon_whereabouts:outcomes, typhon_whereabouts,
+               typhon_whereabouts:home_ended(Id, done, 1, [])),
              t(typhon_outcomes:results, typhon_outcomes,
                typhon_outcomes:results_keep(Id, [result(I)])),
              t(typhon_outcomes:clones, typhon_outcomes,
@@ -39,13 +39,13 @@ most(Module, Bound, Most) :-
 
 test(tables_have_never_more_facts_than_their_bound,
      [ forall(( member(Bound, [50, 500]),
-                member(Module, [ typhon_home, typhon_outcomes,
+                member(Module, [ typhon_whereabouts, typhon_outcomes,
                                  typhon_whereabouts, typhon_questions ]),
                 test_bounds:most(Module, Bound, Bounds) )),
        true(( Most =< Bounds, Last > Bounds-max(2, Bound//50) )) ]) :-
     with_bounds(Bound, with_hosts([alpha], filled(Module, Most, Last))).
 test(lower_setting_holds_after_a_hundred_additions,
-     [ forall(( member(Module, [ typhon_home, typhon_outcomes,
+     [ forall(( member(Module, [ typhon_whereabouts, typhon_outcomes,
                                  typhon_whereabouts, typhon_questions ]),
                 test_bounds:most(Module, 50, Bounds) )),
        true(Count =< Bounds) ]) :-

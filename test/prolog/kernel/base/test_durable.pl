@@ -194,7 +194,7 @@ forgotten(turns, Host, _, _) :-
 forgotten(birth, Id, _, _) :-
     retractall(typhon_birth:known(Id, _)).
 forgotten(born, Id, _, _) :-
-    retractall(typhon_home:born(Id, _, _, _)).
+    retractall(typhon_whereabouts:born(Id, _, _, _)).
 forgotten(Kind, Id, _, _) :-
     memberchk(Kind, [gone, agent]),
     retractall(typhon_whereabouts:forward(Id, _, _, _)).

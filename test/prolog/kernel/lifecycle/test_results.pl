@@ -34,7 +34,7 @@ test(agent_whose_process_is_gone_is_lost, Outcome == lost(B)) :-
                  created_on_a([(main :- move(B)), on_message(_, _)], Id),
                  wait_until(peer_do(b, agent_property(Id, state(resident))),
                             10),
-                 wait_until(peer_do(a, typhon_home:home_knows(Id, B, _, _)), 10),
+                 wait_until(peer_do(a, typhon_whereabouts:home_knows(Id, B, _, _)), 10),
                  peer_do(a, agent_join(Id, timeout, 0)),
                  peer_kill(b),
                  wait_until(( peer_do(a, agent_join(Id, Outcome, 0.5)),
