@@ -99,7 +99,7 @@ connected_to(Host) :-
 %   nor refused yet.
 
 connecting :-
-    typhon_attempts:attempt(_, _, _, _),
+    typhon_connection_manager:attempt(_, _, _, _),
     !.
 connecting :-
     typhon_threads:wire_thread(Thread),

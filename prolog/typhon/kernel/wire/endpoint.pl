@@ -55,7 +55,8 @@ under the mutex of the endpoint.
                 stands_for_all/1 ]).
 :- use_module(acceptor, [accept_all/2, accept_no_more/0]).
 :- use_module(handshake, [cookie/1, hello/4, random_hex/2]).
-:- use_module(connection_manager, [manager_begin/1, manager_end/0]).
+:- use_module(connection_manager,
+              [manager_begin/1, manager_end/0, peers_flush/1]).
 :- use_module(threads,
               [wire_thread_create/3, wire_thread_end/2, wire_threads_end/0]).
 :- use_module(lending, [lending_anew/0]).
@@ -64,7 +65,6 @@ under the mutex of the endpoint.
 :- use_module(transport,
               [ alone/1, alone_begin/1, alone_end/0, transport_begin/1,
                 transport_end/0 ]).
-:- use_module(waiting, [peers_flush/1]).
 
 :- multifile
     received/3,                         % Kind, Term, Peer

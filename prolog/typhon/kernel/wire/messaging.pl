@@ -39,9 +39,9 @@ wait, and are not for the threads of the endpoint.
               [ request_answer/2, request_forget/1, request_send/4, take_post/3,
                 take_request/4 ]).
 :- use_module(transport, [alone/1]).
-:- use_module(waiting,
-              [ manager_connect/1, manager_connect/2, unsent/1, unsent_closed/4,
-                unsent_forget/1, unsent_request/4 ]).
+:- use_module(connection_manager,
+              [ manager_connect/1, manager_connect/2, unsent/1,
+                unsent_closed/4, unsent_forget/1, unsent_request/4 ]).
 
 :- meta_predicate
     endpoint_request(+, +, +, 1).

@@ -22,13 +22,13 @@
 
 noting(Goal) :-
     retractall(tried(_, _)),
-    wrap_predicate(typhon_attempts:try(Address, _, _), noted, Try,
+    wrap_predicate(typhon_connection_manager:try(Address, _, _), noted, Try,
                    ( test_attempts:note(Address), Try )),
     call_cleanup(with_endpoint(Goal),
-                 unwrap_predicate(typhon_attempts:try/3, noted)).
+                 unwrap_predicate(typhon_connection_manager:try/3, noted)).
 
 note(Address) :-
-    aggregate_all(count, typhon_attempts:young(_), Count),
+    aggregate_all(count, typhon_connection_manager:young(_), Count),
     assertz(tried(Address, Count)).
 
 %   result(+Address, -Result, -Tries): of a request, and after so many tries.

@@ -159,7 +159,7 @@ answer(Result) :-
     thread_get_message(Me, Result, [timeout(20)]).
 
 waiting(Address, Count) :-
-    aggregate_all(count, typhon_waiting:waiting(Address, _, thread(_)), Count).
+    aggregate_all(count, typhon_connection_manager:waiting(Address, _, thread(_)), Count).
 
 %   with_held(+Head, :First, :Then): Then is called when First is about to call
 %   Head, of the wire, which continues when the gate gets `go`.
@@ -337,7 +337,7 @@ test(post_before_its_deadline_waits_for_the_next_connection,
           typhon_session:session_retire(Session),
           with_held(
               typhon_connection:send_count(_, _),
-              thread_create(typhon_waiting:manager_connect(A), Connects),
+              thread_create(typhon_connection_manager:manager_connect(A), Connects),
               ( truth(endpoint_post_up(A, note, 1), Up),
                 thread_create(( thread_send_message(endpoint_gate, posts),
                                 ( get_time(Now), By is Now+20,
@@ -358,7 +358,7 @@ test(caller_that_gives_up_during_a_send_leaves_nothing_open, Open == 0) :-
               thread_create(gives_up(A), Asks),
               ( thread_join(Asks, true),
                 thread_send_message(endpoint_gate, go),
-                typhon_waiting:manager_connect(A) )),
+                typhon_connection_manager:manager_connect(A) )),
           aggregate_all(count, typhon_request:open_request(_, _, _), Open) ))).
 
 gives_up(Address) :-
@@ -375,7 +375,7 @@ test(connection_is_reported_even_if_its_thread_ends) :-
                          told_to_end, Wrapped,
                          ( Wrapped, test_endpoint:told_to_end )),
           assertz(test_endpoint:to_end),
-          typhon_waiting:manager_connect(A),
+          typhon_connection_manager:manager_connect(A),
           wait_until(\+ endpoint_peer(A, state(up)), 30),
           assertion(seen(A, up)) ))).
 
@@ -647,14 +647,14 @@ test(stop_with_requests_open, Result == lost) :-
 test(stop_while_connecting, Result == unreachable) :-
     with_deaf(A,
         fresh(( asked(A, echo),
-                        wait_until(typhon_attempts:attempt(
+                        wait_until(typhon_connection_manager:attempt(
                                        A, trying(_, _, _, _), _, _), 10) ))),
     answer(Result).
 test(thread_stops_waiting_at_its_deadline, Count == 0) :-
     with_deaf(A,
         fresh(( get_time(Now),
                         Deadline is Now+0.2,
-                        \+ typhon_waiting:manager_connect(A, Deadline),
+                        \+ typhon_connection_manager:manager_connect(A, Deadline),
                         waiting(A, Count) ))).
 
 %   Until it executes its program a new process is a copy of this one.

@@ -12,7 +12,7 @@ The endpoint is connected to itself: its own reader threads read its posts.
 :- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(plunit)).
 :- use_module(library(typhon/kernel/wire)).
-:- use_module(library(typhon/kernel/wire/waiting),
+:- use_module(library(typhon/kernel/wire/connection_manager),
               [manager_connect/1]).
 :- use_module(library(typhon/kernel/wire/session), [route/2, session_send/2]).
 :- use_module(library(typhon/kernel/wire/threads), [wire_thread_signal/2]).

@@ -398,7 +398,7 @@ test(answer_that_is_sent_later_waits_for_the_commit, Written == 0) :-
 answered_later(Written, Dir) :-
     running(Dir, normal,
         ( endpoint_address(Me),
-          typhon_waiting:manager_connect(Me),
+          typhon_connection_manager:manager_connect(Me),
           typhon_session:session(self_server, Session),
           typhon_session:session_later_begin(Session),
           sync_changes,
