@@ -163,10 +163,10 @@ calls_nobody :-
 %   Messages for Id wait here after a failed attempt.
 
 kept(Id) :-
-    typhon_backlog:backlog(Id).
+    typhon_mail:backlog(Id).
 
 tried_in_vain(Id) :-
-    typhon_backlog:waits(Id, _, Tries, _),
+    typhon_mail:waits(Id, _, Tries, _),
     Tries > 0.
 
 news_kept(Count) :-
@@ -177,7 +177,7 @@ news_kept(Count) :-
 :- dynamic message_seen/0.
 
 count_messages :-
-    wrap_predicate(typhon_post:pass_on(_, _), count, Wrapped,
+    wrap_predicate(typhon_mail:pass_on(_, _), count, Wrapped,
                    ( assertz(peer_main:message_seen), Wrapped )).
 
 messages_seen(Count) :-

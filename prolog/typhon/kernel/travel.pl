@@ -22,9 +22,9 @@ This is the interface of the layer: higher layers import from here.
               ended_agent/1, home_agents/1, home_agents_at/2, home_knows/4,
               outcome_wait/3, whereabouts/2 ]).
 :- reexport(travel/outcomes, [clone_born/2, clones_ask/3, results_ask/4]).
-:- reexport(travel/post, [post/3, post_on/2, post_via/4]).
-:- reexport(travel/routing, [mail_lost/3]).
-:- reexport(travel/backlog, [post_tried/0, retries_go_on/0]).
+:- reexport(travel/mail,
+            [ mail_lost/3, post/3, post_on/2, post_tried/0, post_via/4,
+              retries_go_on/0 ]).
 :- reexport(travel/sender_authorization,
             [ mail_accepted/5, peer_may_send_for/3, sender_accepted/1,
               senders_check/1, with_proof/5 ]).

@@ -150,7 +150,7 @@ held(courier(E)) :- typhon_channel:courier(E).
 held(seen(E, N)) :- typhon_channel:seen(E, N).
 held(ack_scheduled(E)) :- typhon_channel:ack_scheduled(E).
 held(waits(Id, Letters, T, S)) :-
-    typhon_backlog:waits(Id, Q, T, S),
+    typhon_mail:waits(Id, Q, T, S),
     findall(L, thread_peek(Q, L), Letters).
 held(agent(Id, P)) :-
     agent_property(Id, P), \+ P = program(_), \+ P = trace(_).

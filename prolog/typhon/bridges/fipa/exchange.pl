@@ -37,7 +37,7 @@ connection to another process of the network.
 
 :- multifile
     typhon_fipa_carriage:returned/4,
-    typhon_routing:returned/3.
+    typhon_mail:returned/3.
 
                 /*******************************
                 *           SENDING            *
@@ -272,7 +272,7 @@ why(Formal, Why) :-
 
 %   post/3 has accepted this message, but it could not be delivered later.
 
-typhon_routing:returned(fipa(_), Id, Acl) :-
+typhon_mail:returned(fipa(_), Id, Acl) :-
     acl_parameter(Acl, via(Address)),
     platform(Host, _, _, _),
     host_address(Host, Address),

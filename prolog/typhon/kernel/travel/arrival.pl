@@ -21,7 +21,7 @@
                 with_agent/2 ]).
 :- use_module(hand_over, [taken_over/4]).
 :- use_module(whereabouts, [agent_heard_of/2, agent_outcome/2, agent_seen/4]).
-:- use_module(post, [post_waiting/2]).
+:- use_module(mail, [post_waiting/2]).
 :- use_module(transfer, [transfer_let_go/4, transfer_over/2]).
 
 /** <module> Arrival of agents

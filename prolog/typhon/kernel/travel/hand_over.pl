@@ -20,8 +20,7 @@
                 agent_under_way/6, life_before/2, life_came/2, life_goes/3,
                 mail_all/2, mail_back/2, mail_waits/1, program_sent/3,
                 with_agent/2 ]).
-:- use_module(backlog, [backlog/1]).
-:- use_module(post, [post_on/2]).
+:- use_module(mail, [backlog/1, post_on/2]).
 :- use_module(whereabouts, [agent_came/4, agent_comes_anew/3, agent_went/5]).
 
 /** <module> Hand-over: the short form of a hop

@@ -36,7 +36,7 @@
               [ crash_point/1, durable_drop/3, durable_on/0,
                 enqueue_changes/0, unit_of_work/1 ]).
 :- use_module(outcomes, [clone_unborn/2]).
-:- use_module(post, [post_on/2]).
+:- use_module(mail, [post_on/2]).
 :- use_module(whereabouts, [agent_ended/4, agent_left/4, agent_left_noted/4]).
 
 /** <module> Agents under way

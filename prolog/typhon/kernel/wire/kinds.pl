@@ -236,13 +236,13 @@ asked(order(watched(_:term)), orders, tracing).
 
 arrives(post, message, message(Id:name, _:list(mail(name, term, term)),
                                _:count),
-        messages, agent(Id), post).
+        messages, agent(Id), mail).
 arrives(post, message,
         shown(_:term, message(Id:name, _:list(mail(name, term, term)),
                               _:count)),
-        messages, agent(Id), post).
+        messages, agent(Id), mail).
 arrives(post, message, lost(_:term, _:term, _:list(mail(name, term, term))),
-        messages, all, routing).
+        messages, all, mail).
 arrives(post, message, abroad(_:term, _:name, _:term), messages, all,
         external_recipients).
 arrives(post, message, shown(_:term, abroad(_:term, _:name, _:term)),

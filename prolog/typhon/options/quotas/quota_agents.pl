@@ -24,7 +24,7 @@ when it may stay, and bounds the size of its state.
 
 On a host with the quota `mailbox` at most that many messages wait for an agent.
 Further messages become dead letters, which are reported here and where they
-were sent, see typhon_routing.  Those of one second are reported together,
+were sent, see typhon_mail.  Those of one second are reported together,
 so that a flood of messages is not a flood of warnings.
 
 *Threading*: any thread.  Agents arrive and leave inside with_agent/2.  Agents
@@ -305,7 +305,7 @@ typhon_host_parts:part(deliver, Host, 10, typhon_quota_agents:fits(Most)) :-
 :- public fits/5.
 
 %   fits(+Most, +Host, +Id, +Mail, -Fitting): the mailbox of Id has space for
-%   Fitting, a prefix of Mail, see typhon_routing; the rest becomes dead
+%   Fitting, a prefix of Mail, see typhon_mail; the rest becomes dead
 %   letters.
 
 fits(Most, _, Id, Mail, Fitting) :-

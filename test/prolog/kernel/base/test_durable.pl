@@ -200,7 +200,7 @@ forgotten(Kind, Id, _, _) :-
     retractall(typhon_whereabouts:forward(Id, _, _, _)).
 forgotten(Kind, Id, _, _) :-
     memberchk(Kind, [wait, backlog]),
-    typhon_backlog:backlog_all(Id, _).
+    typhon_mail:backlog_all(Id, _).
 forgotten(mail, Id, _, _) :-
     typhon_mailbox:mail_all(Id, _).
 forgotten(Kind, Id, _, _) :-

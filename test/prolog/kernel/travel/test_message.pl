@@ -252,8 +252,8 @@ test(messages_beyond_the_bound_are_lost, Waiting-Left == 50-0) :-
     with_settings([typhon_backlog:messages=50],
         capturing(with_hosts([alpha],
                              ( forall(between(1, 200, N), unknown_gets(N)),
-                               flag(typhon_backlog, Waiting, Waiting) )), Ms)),
-    flag(typhon_backlog, Left, Left),
+                               flag(typhon_mail, Waiting, Waiting) )), Ms)),
+    flag(typhon_mail, Left, Left),
     findall(N, ( member(_-typhon(M), Ms), lost_in(M, N) ), Ns),
     sum_list(Ns, Lost),         % and some that waited, as the host stops
     assertion(between(150, 200, Lost)).
