@@ -37,10 +37,9 @@ This is the interface of the layer: higher layers import from here.
               context_now/2, context_set/3, turn_later/1, turn_of/3,
               turns_go_on/1, turns_now/3, turns_pause/0, turns_paused/0 ]).
 :- reexport(host/scheduler,
-              [ agent_parked/1, schedule/2, schedule_adopt/1, schedule_here/3,
-                schedule_stays/2, scheduler_call/1, scheduler_limited/2,
-                work_do/2 ]).
-:- use_module(host/pool, []).
+            [ agent_parked/1, schedule/2, schedule_adopt/1, schedule_here/3,
+              schedule_stays/2, scheduler_call/1, scheduler_limited/2,
+              work_do/2 ]).
 :- reexport('host/runtime').
 :- reexport('host/hosting').
 :- reexport('host/remote').

@@ -33,7 +33,7 @@
 /** <module> The runtime: the threads that do the work, and time
 
 A runtime of some Kind does the work, fires the alarms, and serves callers that
-wait.  The kernel has `real`, a pool of threads, see typhon_pool; an option has
+wait.  The kernel has `real`, a pool of threads, see typhon_scheduler; an option has
 `single`, for a Prolog without threads, see typhon_single.  Both use
 monotonic_time/1.  A process has one kind as long as it has hosts.  Stamps are
 seconds, of that time or of the clock of the runtime.

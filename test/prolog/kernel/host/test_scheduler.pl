@@ -14,7 +14,6 @@
 :- use_module(library(typhon/kernel/host/turns)).
 :- use_module(library(typhon/kernel/host/time),
               [alarm_set/3, time_start/1, time_stop/0]).
-:- use_module(library(typhon/kernel/host/timer)).
 
 /** <module> Tests of the pool of workers, and of alarms
 
@@ -270,7 +269,7 @@ beside_blocked(Count, O, S) :-
 %   The numbers of alarms, and of stamps in the index of the timer.
 
 alarm_count(Alarms, Indexed) :-
-    typhon_timer:timer(Timer),
+    typhon_scheduler:timer(Timer),
     server_call(Timer, count, inf, Indexed),
     predicate_property(typhon_alarms:alarm(_, _, _),
                        number_of_clauses(Alarms)).
