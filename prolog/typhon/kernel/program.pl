@@ -29,4 +29,4 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(program/faults, [fault/3, fault_note/1, fault_noted/1]).
 :- reexport(program/bodies,
             [body_goals/4, control/1, goals_body/2]).
-:- reexport(program/chunk_goals, [plain_goals/2]).
+:- reexport(program/chunks, [plain_goals/2]).

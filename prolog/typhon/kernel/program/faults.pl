@@ -10,7 +10,7 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [append/3, member/2, memberchk/2]).
 :- use_module(bodies, [goals_body/2]).
-:- use_module(chunk_goals, [place_left/4, plain_goals/2]).
+:- use_module(chunks, [place_left/4, plain_goals/2]).
 
 /** <module> Where a run of the machine ended
 

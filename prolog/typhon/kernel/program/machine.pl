@@ -9,10 +9,9 @@
 :- use_module('../base/error_text', [is_abort/1]).
 :- use_module(bodies,
               [body_goals/4, called_goal/2, goals_body/2, special/2]).
-:- use_module(chunk_goals,
-              [ frame_goals/4, goals_without/3, place_marked/3,
-                plain_goals/2 ]).
-:- use_module(chunks, [chunks_ready/1]).
+:- use_module(chunks,
+              [ chunks_ready/1, frame_goals/4, goals_without/3,
+                place_marked/3, plain_goals/2 ]).
 :- use_module(faults, [fails/2, fails_inside/2]).
 :- use_module(thread_state, [step_ended/1]).
 
