@@ -169,7 +169,7 @@ held(alarm(A)) :-
     clause(typhon_alarms:A, true).
 held(fact(M:A)) :-
     member(M, [typhon_connection_manager,typhon_session,typhon_connection_manager,
-               typhon_peer_cache,typhon_hop_ids,typhon_in_doubt,typhon_transfer,
+               typhon_peer_cache,typhon_hop_ids,typhon_transfer,typhon_transfer,
                typhon_arrival,typhon_whereabouts,typhon_whereabouts,typhon_news,typhon_window,
                typhon_session,typhon_session,typhon_session,typhon_committing,typhon_connection,
                typhon_lending]),

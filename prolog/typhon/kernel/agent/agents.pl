@@ -55,7 +55,7 @@ The goals of a record may be frames, see typhon_chunks, which have a meaning
 only in this process: the predicates that return the goals of an agent or note
 them in the journal convert frames to goals of its program.
 
-For an agent that was handed over to another process, see typhon_hand_over, this
+For an agent that was handed over to another process, see typhon_hop, this
 process keeps only the sent frame and a mailbox until the other process has
 accepted the agent.  A predicate that reads such an agent thaws it: the agent
 gets a record again, with the status of an agent in transit.

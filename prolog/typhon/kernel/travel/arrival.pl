@@ -19,7 +19,7 @@
                 gate_refused/4, image_amended/5, image_enter/4, image_entrant/2,
                 image_label/2, image_module/3, life_hops/2,
                 with_agent/2 ]).
-:- use_module(hand_over, [taken_over/4]).
+:- use_module(hop, [taken_over/4]).
 :- use_module(whereabouts, [agent_heard_of/2, agent_outcome/2, agent_seen/4]).
 :- use_module(mail, [post_waiting/2]).
 :- use_module(transfer, [transfer_let_go/4, transfer_over/2]).

@@ -1,39 +1,21 @@
 :- module(typhon_hop,
           [ hop/6,                      % +Id, +Where, +Hole, +Goals, +Since,
                                         % -Next
-            hop_clone/6                 % +Id, +Where, +CloneId, -Role, +Hole,
+            hop_clone/6,                % +Id, +Where, +CloneId, -Role, +Hole,
                                         % +Goals
+            hand_over/5,                % +Id, +Host, +Where, +Hole, +Goals
+            taken_over/4,               % +Host, +Image, +Program, +Peer
+            hop_at_once/6               % +Id, +Here, +Name, +Hole, +Goals,
+                                        % -Next
           ]).
-:- use_module(library(debug), [debug/3]).
-:- use_module('../program', [plain_goals/2]).
-:- use_module('../wire',
-              [ endpoint_address/1, endpoint_hand/4, endpoint_hand_over/2,
-                endpoint_request/4, mobile_term/1 ]).
-:- use_module('../host',
-              [address_parts/3, amended/5, host/3, host_time/2, parts/3]).
-:- use_module('../agent',
-              [ agent/5, image_amended/5, image_hash/2, image_held/2,
-                program_missing/2, program_sent/3, with_agent/2 ]).
-:- use_module('../base/durable_changes',
-              [commits_must_succeed/0, crash_point/1, durable_on/0]).
-:- use_module(in_doubt, [may_have_arrived/1, resolve_in_doubt/1]).
-:- use_module(whereabouts, [agent_born/2]).
-:- use_module(hand_over, []).
-:- use_module(outcomes, [clone_born/2]).
-:- use_module(within, [hop_within/6]).
-:- use_module(transfer,
-              [ hop_label/3, transfer_arrived/1, transfer_freeze/4,
-                transfer_image/2, transfer_image/5, transfer_stays/2,
-                transfer_traveller/3, transfer_unreachable/1 ]).
 
 /** <module> A hop is a transaction
 
-This module makes hops in which the source keeps the agent until the answer.
-See typhon_within for hops between hosts of one process, and typhon_hand_over
-for the short form between plain hosts.  The source freezes the agent and sends
-its image: state, payloads, goals, mail.  The receiver installs it and answers,
-see typhon_arrival; only then does the source remove its copy, see
-typhon_transfer.  If the agent comes back before the answer, it has arrived.
+In a hop of the general form the source keeps the agent until the answer. It
+freezes the agent and sends its image: state, payloads, goals, mail. The
+receiver installs it and answers, see typhon_arrival; only then does the source
+remove its copy, see typhon_transfer. If the agent comes back before the
+answer, it has arrived.
 
   | answer       | the source                                            |
   | ------------ | ----------------------------------------------------- |
@@ -41,17 +23,79 @@ typhon_transfer.  If the agent comes back before the answer, it has arrived.
   | refused(Why) | raises move_refused(Host, Why) at the move            |
   | need_program | sends again, with the program                         |
   | unreachable  | raises host_unreachable(Host) at the move             |
-  | lost         | asks whether the agent arrived, see typhon_in_doubt   |
+  | lost         | asks whether the agent arrived, see typhon_transfer   |
 
-*Threading*: hop/6 in a worker; answers in the reader threads of the
-endpoint, which never wait.
+_Between plain hosts_: an agent that leaves a host without parts, see
+typhon_host_parts, for another process is handed over. The source keeps only
+the sent frame, and settlement of the frame means that the agent has arrived.
+No request is open, no goals are copied, and no module is kept.
+
+In any other case, and when a predicate reads the agent meanwhile, the agent is
+_thawed_: the frame is decoded, and the agent is in transit like one that was
+sent by request, see typhon_transfer, which does the rest.
+
+An agent that comes to a host without parts is taken over in one step, and
+continues in the thread that has read it, if its turns are short.  In any
+unusual case this step fails without changes; then the agent arrives like any
+other, see typhon_arrival.
+
+_Within a process_ no image is sent, and no transfer can be in doubt: the
+record of the agent changes in one step. Its mail and orders stay where they
+are, and mostly its state does, too. To the agent the hop is like any other:
+its terms must be mobile, and its place changes. Only the bound on the length
+of a frame does not apply.
+
+*Threading*: hop/6, hand_over/5 and hop_at_once/6 in a worker, which has the
+agent; answers and taken_over/4 in the threads of the endpoint, which never wait.
 */
 
+:- use_module(library(debug), [debug/3]).
+:- use_module('../agent',
+              [ agent/5, agent_build/5, agent_comes/5, agent_gone/3,
+                agent_handed/4, agent_here/5, agent_links/4, agent_mobile/6,
+                agent_module/4, agent_move/5, agent_on/2, agent_passes/6,
+                agent_put/3, agent_ready/2, agent_relink/2, agent_runs/1,
+                agent_state/2, agent_state_mobile/3, agent_status/3,
+                agent_thawed/5, agent_under_way/6, gate/4, image_amended/5,
+                image_hash/2, image_held/2, life_before/2, life_came/2,
+                life_goes/3, life_hop/3, mail_all/2, mail_back/2,
+                mail_waits/1, program_missing/2, program_sent/3, with_agent/2 ]).
+:- use_module('../base/durable_changes',
+              [commits_must_succeed/0, crash_point/1, durable_on/0]).
+:- use_module('../base/error_text', [print_error/2]).
+:- use_module('../host',
+              [ address_parts/3, amended/5, event/4, event_subscribed/1,
+                host/3, host_came/2, host_hop/3, host_leave/1, host_left/2,
+                host_passes/4, host_plain/2, host_plain_leaves/2, host_time/2,
+                parts/3, real_time/3, schedule/2, schedule_here/3,
+                schedule_stays/2, scheduler_call/1, time_now/1 ]).
+:- use_module('../program', [code_compiled/2, plain_goals/2]).
+:- use_module('../wire',
+              [ endpoint_address/1, endpoint_afterwards/1, endpoint_hand/4,
+                endpoint_hand_over/2, endpoint_hand_to/2, endpoint_handed/2,
+                endpoint_request/4, mobile_term/1 ]).
+:- use_module(mail, [backlog/1, post_on/2]).
+:- use_module(outcomes, [clone_born/2]).
+:- use_module(transfer,
+              [ hop_label/3, may_have_arrived/1, move_over/2,
+                resolve_in_doubt/1, transfer_arrived/1, transfer_freeze/4,
+                transfer_image/2, transfer_image/5, transfer_stays/2,
+                transfer_traveller/3, transfer_unreachable/1 ]).
+:- use_module(whereabouts,
+              [ agent_born/2, agent_came/4, agent_comes_anew/3, agent_seen/4,
+                agent_went/5 ]).
+
 :- multifile
-    sent_again/2,               % Endpoint, Id: the image is sent again, because
-                                % the receiver lacks the program and its proofs
-    typhon_in_doubt:again/1,
-    typhon_hand_over:result/2.
+    sent_again/2,                       % Endpoint, Id: the image is sent again, because
+                                        % the receiver lacks the program and its proofs
+    typhon_transfer:again/1,
+    typhon_hop:result/2,
+    typhon_agents:thaw/1,
+    typhon_endpoint:handed_over/2,
+    result/2.                           % Result, Transfer: the agent is in transit;
+                                        % treat Result as the answer to its request
+
+:- public settled/2.
 
 %!  hop(+Id, +Where, +Hole, +Goals, +Since, -Next) is det.
 %
@@ -150,7 +194,7 @@ send(Transfer, Image0) :-
           not_sent(Formal, Transfer)).
 
 %   Without a journal the hop needs no answer: settlement of its frame means
-%   that it was accepted, see typhon_hand_over.  Fails if there is no
+%   that it was accepted, see typhon_hop.  Fails if there is no
 %   connection.
 
 handed(Endpoint, hop(Name, Image0, Program), Transfer) :-
@@ -175,7 +219,7 @@ not_sent(Formal, Transfer) :-
 
 %   Send the agent once more.
 
-typhon_in_doubt:again(Transfer) :-
+typhon_transfer:again(Transfer) :-
     again(Transfer).
 
 again(Transfer) :-
@@ -188,13 +232,13 @@ again(Transfer) :-
                 *            ANSWERS           *
                 *******************************/
 
-typhon_hand_over:result(unsent, Transfer) :-
+typhon_hop:result(unsent, Transfer) :-
     !,
     again(Transfer).
-typhon_hand_over:result(lost, Transfer) :-
+typhon_hop:result(lost, Transfer) :-
     !,
     answered(Transfer, lost).
-typhon_hand_over:result(Answer, Transfer) :-
+typhon_hop:result(Answer, Transfer) :-
     answered(Transfer, answer(Answer)).
 
 answered(Transfer, answer(Answer)) :-
@@ -222,4 +266,353 @@ handle_answer(need_program, Transfer) :-
         forall(sent_again(Endpoint, Agent), true),
         send(Transfer, Image)
     ;   transfer_stays(Transfer, given_up)
+    ).
+
+                /*******************************
+                *      TO ANOTHER PROCESS      *
+                *******************************/
+
+%!  hand_over(+Id, +Host, +Where, +Hole, +Goals) is semidet.
+%
+%   Send Id, which moves from Host, to Where, as in host_resolve/2, where it
+%   continues with Goals, Hole bound to `true`.  Fails without changes if the
+%   agent has to go by request: options are in use, there is no connection, its
+%   terms cannot travel, it may not move, or it has an order.
+
+hand_over(Id, Host, remote(Address, Name, Endpoint), Hole, Goals) :-
+    host_plain_leaves(Host, Since),
+    \+ durable_on,
+    \+ event_subscribed(hops),
+    agent_here(Id, Host, Module, Hash, Life0),
+    !,
+    life_goes(Life0, Life, Hops),
+    agent_state(Module, State),
+    (   mail_waits(Id)
+    ->  with_agent(Id, mail_all(Id, Mail))
+    ;   Mail = []
+    ),
+    plain_goals(Goals, Plain),
+    (   framed(Endpoint, Name, Hash,
+               image(Id, Hash, Life, State, Hole-Plain, Mail, Since), Frame),
+        Transfer = hop(Id, dest(Address, Name, Endpoint), Hops),
+        sig_atomic(with_agent(Id, leave(Transfer, Since, Frame)))
+    ->  debug(typhon(hop), '~w hop ~D: leaves for ~w', [Id, Hops, Address])
+    ;   with_agent(Id, mail_returned(Id, Mail)),
+        fail
+    ).
+
+%   An agent that was ended meanwhile has no mailbox: its mail is posted on, so
+%   that the senders get a report.
+
+mail_returned(Id, Mail) :-
+    (   agent_here(Id, _, _, _, _)
+    ->  mail_back(Id, Mail)
+    ;   post_on(Id, Mail)
+    ).
+
+%   Errors fail here; they are reported when the agent goes by request.
+
+framed(Endpoint, Name, Hash, Image, Frame) :-
+    acyclic_term(Image),
+    term_attvars(Image, []),
+    program_sent(Endpoint, Hash, Program),
+    catch(endpoint_hand(Endpoint, hop, hop(Name, Image, Program), Frame),
+          error(_, _), fail).
+
+%   Sends the frame last: the agent may be back before another goal runs here.
+
+leave(Transfer, Since, Frame) :-
+    Transfer = hop(Id, Dest, Hops),
+    agent_handed(Id, Hops, way(Dest, Since), Frame),
+    catch(endpoint_hand_over(Frame, Transfer), error(session_closed, _),
+          scheduler_call(typhon_hop:settled(unsent, Transfer))).
+
+                /*******************************
+                *            RESULTS           *
+                *******************************/
+
+typhon_endpoint:handed_over(Transfer, Result) :-
+    settled(Result, Transfer).
+
+settled(accepted, hop(Id, Dest, Hops)) :-
+    with_agent(Id, moved_on(Id, Dest, Hops, Host, Since)),
+    !,
+    host_left(Host, Since).
+settled(Result, Transfer) :-
+    ignore(( Transfer = hop(Id, _, _),
+             with_agent(Id, thawed(Id)) )),
+    result(Result, Transfer).
+
+%   The destination is noted before the agent is removed, and mail that came
+%   meanwhile is sent before any that comes later.
+
+moved_on(Id, dest(Address, _, Endpoint), Hops, Host, Since) :-
+    agent_under_way(Id, Hops, Host, _, way(_, Since), Frame),
+    endpoint_hand_to(Frame, Process),
+    agent_went(Id, Address, Hops, Endpoint, Process),
+    agent_gone(Id, Hops, Mail),
+    post_on(Id, Mail).
+
+                /*******************************
+                *            THAWING           *
+                *******************************/
+
+typhon_agents:thaw(Id) :-
+    sig_atomic(with_agent(Id, thawed(Id))).
+
+%   thawed(+Id) is semidet: inside with_agent/2.  The state, goals and mail are
+%   those of the frame; the hop does not count before the agent has arrived.
+
+thawed(Id) :-
+    agent_under_way(Id, Hops, Host, _, way(Dest, Since), Frame),
+    !,
+    endpoint_handed(Frame, hop(_, Image, _)),
+    Image = image(Id, Hash, Life1, State, Hole-Goals0, Mail, _),
+    life_before(Life1, Life0),
+    host(Host, _, Place),
+    agent_build(Id, Place, Hash, State-Goals0, Module-Goals),
+    arg(1, Dest, Address),
+    real_time(Host, Since, Sent),
+    agent_thawed(Id, Module, Life0, transit(Address, Sent),
+                 hop(Hole-Goals, Hops, Mail, Since)).
+
+                /*******************************
+                *            ARRIVAL           *
+                *******************************/
+
+%!  taken_over(+Host, +Image, +Program, +Peer) is semidet.
+%
+%   The process at Peer hands over an agent to Host; the arguments may be any
+%   terms.  The agent is here now, and continues after this call.
+%
+%   @error those of agent_module/4
+
+taken_over(Host, Image, known, Peer) :-
+    atom(Host),
+    host_plain(Host, Plain),
+    \+ event_subscribed(hops),
+    is_plain_image(Image, Id, Hash, Life, Hops, Clauses, Goals, Since),
+    code_compiled(Hash, Program),
+    arg(1, Plain, Address),
+    with_agent(Id, install(Id, Hops, Host-Plain, Hash-Program, Life, Clauses,
+                           Since, Home)),
+    !,
+    debug(typhon(hop), '~w hop ~D: is on ~w, from ~w',
+          [Id, Hops, Address, Peer]),
+    (   Home == here
+    ->  true                            % this process is its home
+    ;   agent_came(Id, Address, Hops, Peer)
+    ),
+    endpoint_afterwards(go_on(Id, Host-Hash, context(Program, Id), Goals)).
+
+%   Image is that of an agent without messages and extras.
+
+is_plain_image(image(Id, Hash, Life, State, Hole-Goals, Mail, Since), Id,
+               Hash, Life, Hops, Clauses, Goals, Since) :-
+    Mail == [],
+    atom(Id),
+    sub_atom(Id, _, _, _, @),
+    !,
+    atom(Hash),
+    number(Since),
+    is_list(Goals),
+    life_came(Life, Hops),
+    nonvar(State),
+    State = state(Empty, Clauses),
+    Empty == [],
+    is_list(Clauses),
+    Hole = true.
+
+%   Signals are deferred, see reader.pl: none interrupts these steps.
+
+install(Id, Hops, Where, Hash-Program, Life, Clauses, Since, Home) :-
+    Where = Host-Plain,
+    \+ agent_on(Id, _),
+    \+ backlog(Id),
+    agent_comes_anew(Id, Hops, Home),
+    arg(2, Plain, Place),
+    agent_module(Id, Place, Program, Clauses),
+    (   host_came(Where, Since)
+    ->  agent_comes(Id, Host, Id, Hash, Life)
+    ;   '$destroy_module'(Id),
+        fail
+    ).
+
+go_on(Id, Host-Hash, Context, Goals, here) :-
+    schedule_here(Host, Hash,
+                  typhon_scheduler:run_on(Id, Host, Context, Goals)).
+go_on(Id, _, _, Goals, later) :-
+    ignore(with_agent(Id, agent_ready(Id, Goals))).
+
+                /*******************************
+                *       WITHIN A PROCESS       *
+                *******************************/
+
+%!  hop_at_once(+Id, +Here, +Name, +Hole, +Goals, -Next) is semidet.
+%
+%   As hop_within/6, between plain hosts, for an agent that moves from Here, may
+%   move and carries no extras, if hops are not delayed and have no listener.
+%   In all other cases it fails without changes.
+
+hop_at_once(Id, Here, Name, Hole, Goals, Next) :-
+    host_plain(Here, From),
+    From = plain(_, _, none, Epoch, Rate, _, _, _, _),
+    host_plain(Name, To),
+    \+ event_subscribed(hops),
+    agent_mobile(Id, Here, Module, Hash, Life0, Until0),
+    life_goes(Life0, Life, Hops),
+    !,
+    time_now(Now),
+    Since is (Now-Epoch)*Rate,
+    agent_state_mobile(Module, Until0, Until),
+    mobile_term(Life-Goals),
+    Going = going(Module, Hash, Life, Until, Since),
+    sig_atomic(passed(Id, Here-From, Name-To, Going, Hole-Goals, Hops, Next)).
+
+%!  hop_within(+Id, +Name, +Hole, +Goals, +Since, -Next) is det.
+%
+%   Id, which departed at Since, is on host Name of this process, with Goals,
+%   its Hole bound to `true`; or it was ended meanwhile.  Next is `stop`, or
+%   elsewhere(Goals) if it keeps its worker.
+%
+%   @error type_error(mobile_term, Culprit)
+%   @error move_refused(Address, Reason)
+
+hop_within(Id, Name, Hole, Goals, Since, Next) :-
+    agent_mobile(Id, Here, Module, Hash, Life0, Until0),
+    !,
+    life_hop(Life0, Life, Hops),
+    agent_state_mobile(Module, Until0, Until),  % only what has changed
+    mobile_term(Life-Goals),
+    Going = going(Module, Hash, Life, Until, Since),
+    (   host_plain(Here, From),
+        host_plain(Name, To),
+        sig_atomic(passed(Id, Here-From, Name-To, Going, Hole-Goals, Hops,
+                          Next0))
+    ->  Next = Next0
+    ;   gate(Name, going-entrant(Id, Hash, Life, module(Module), []),
+             moved(Id, Here-Name, Going, Hole-Goals, Hops, Next),
+             Verdict),
+        conclude(Verdict, Id, Here-Name, Hops, Next)
+    ).
+hop_within(_, _, _, _, _, stop).        % it was ended
+
+%   passed(+Id, +From, +To, +Going, +Held, +Hops, -Next) is semidet: for plain
+%   hosts, and if there is capacity.  In all other cases it fails without
+%   changes.
+
+passed(Id, From, To, Going, Held, Hops, Next) :-
+    with_agent(Id, pass(Id, From, To, Going, Held, Next, Seconds)),
+    From = Here-_,
+    To = Name-plain(Address, _, _, _, _, _, _, _, _),
+    arrival_finish_safely(Id, Here-Name, Address, Hops, Seconds, Next).
+
+pass(Id, Here-From, Name-To, going(Module, Hash, Life, Until, Since),
+     Hole-Goals, Next, Seconds) :-
+    host_plain(Here, From),             % it still is
+    agent_runs(Id),
+    arg(2, From, Place0),
+    arg(2, To, Place),
+    agent_links(Module, Place0, Place, Links),
+    host_passes(From, Name-To, Since, Seconds),
+    !,
+    agent_relink(Module, Links),
+    ignore(Hole = true),
+    agent_passes(Id, Name, Module, Hash, Life, Until),
+    next(running, Here-Name, Goals, Next),
+    ready_if_stopped(Next, Id, Goals).
+
+conclude(ok, _, _, _, _).
+conclude(ended, _, _, _, stop).
+conclude(refused(Reason), Id, Here-Name, Hops, _) :-
+    endpoint_address(Own),
+    address_parts(Address, Name, Own),
+    debug(typhon(hop), '~w hop ~D: stays, ~w', [Id, Hops, Reason]),
+    event(hops, Here, Id, stayed(Address)),
+    throw(error(move_refused(Address, Reason), _)).
+
+%   moved(+Id, +Hosts, +Going, +Held, +Hops, -Next, -Verdict): Verdict is `ok`,
+%   `ended`, or refused(unknown_host) of a host that is being stopped.
+
+moved(Id, Hosts, Going, Held, Hops, Next, ok) :-
+    with_agent(Id, move(Id, Hosts, Going, Held, Next, Seconds)),
+    !,
+    Hosts = _-Name,
+    (   host(Name, Address, _)
+    ->  arrival_finish_safely(Id, Hosts, Address, Hops, Seconds, Next)
+    ;   true                            % it is being stopped
+    ).
+moved(Id, _, _, _, _, _, Verdict) :-
+    (   agent(Id, _, _, _, _)
+    ->  Verdict = refused(unknown_host)
+    ;   Verdict = ended
+    ).
+
+%   An agent that was ordered to move has no hole.  Here and Name are counted
+%   inside with_agent/2, so that an order to end the agent finds it counted on
+%   the host where it is.
+
+move(Id, Here-Name, going(Module0, Hash, Life, Until, Since), Hole-Goals0,
+     Next, Seconds) :-
+    host(Name, _, Place),
+    agent_status(Id, Status, _),
+    next(Status, Here-Name, Goals, Next),
+    (   host(Here, _, Place0),
+        agent_links(Module0, Place0, Place, Links)
+    ->  Module = Module0,
+        Goals = Goals0,
+        agent_relink(Module, Links)
+    ;   agent_state(Module0, State),
+        agent_build(Id, Place, Hash, State-Goals0, Module-Goals)
+    ),
+    ignore(Hole = true),
+    agent_move(Id, Name, Module, Life, Until),
+    ready_if_stopped(Next, Id, Goals),
+    seconds(Here, Name, Since, Seconds),
+    host_hop(Here, out, Seconds),
+    host_hop(Name, in, Seconds),
+    host_leave(Here).                   % last: a host that stops waits for it
+
+next(running, Here-Name, Goals, Next) :-
+    (   schedule_stays(Here, Name)
+    ->  Next = elsewhere(Goals)
+    ;   Next = stop
+    ).
+next(obeying, _, _, stop).
+
+ready_if_stopped(elsewhere(_), _, _).
+ready_if_stopped(stop, Id, Goals) :-
+    agent_put(Id, ready, Goals).
+
+%   One of the hosts may have been stopped meanwhile.
+
+seconds(Here, Name, Since, Seconds) :-
+    (   ( host_time(Here, Now) ; host_time(Name, Now) )
+    ->  Seconds is max(0.0, Now-Since)
+    ;   Seconds = 0.0
+    ).
+
+%   The agent has moved: errors in reporting are only printed.
+
+arrival_finish_safely(Id, Hosts, Address, Hops, Seconds, Next) :-
+    catch(arrival_finish(Id, Hosts, Address, Hops, Seconds, Next),
+          error(Formal, Context),
+          print_error(error, error(Formal, Context))).
+
+arrival_finish(Id, Here-Name, Address, Hops, Seconds, Next) :-
+    debug(typhon(hop), '~w hop ~D: is on ~w, of this process',
+          [Id, Hops, Address]),
+    agent_seen(Id, Address, Hops, here),
+    ignore(move_over(Id, answer(arrived))),
+    arrival_event(Id, Here, Name, Seconds),
+    (   Next == stop
+    ->  schedule(Name, Id)
+    ;   true
+    ).
+
+arrival_event(Id, Here, Name, Seconds) :-
+    (   event_subscribed(hops),
+        host(Here, From, _)
+    ->  event(hops, Name, Id, arrived(From, Seconds))
+    ;   true
     ).

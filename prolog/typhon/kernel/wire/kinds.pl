@@ -265,7 +265,7 @@ arrives(news, whereabouts,
 arrives(news, whereabouts, resumed(Id:name, _:number, _:count), agents,
         agent(Id), whereabouts).
 arrives(request, whereabouts, reached(Id:name, _:count), agents, agent(Id),
-        in_doubt).
+        transfer).
 arrives(request, join, join(Id:name, _:term), watch, agent(Id), whereabouts).
 arrives(request, results, left(Id:name, _:name), watch, agent(Id), outcomes).
 arrives(request, results, clones(Id:name), watch, agent(Id), outcomes).
