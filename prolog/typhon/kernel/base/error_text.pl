@@ -11,7 +11,7 @@
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [member/2]).
-:- use_module(shown_lines, [shown_lines/2]).
+:- use_module(text, [shown_lines/2]).
 :- use_module(trees, [is_tree/2]).
 
 /** <module> Errors from elsewhere as text
@@ -267,12 +267,12 @@ translated(Ball) :-
 
 %   accepts(+Term, ?Any, :Hook): a clause of Hook, whose argument Any is the
 %   term, accepts Term.  A clause that accepts any term counts if the predicate
-%   to which it passes the term accepts it; that of typhon_shown_lines does not.
+%   to which it passes the term accepts it; that of typhon_text does not.
 
 accepts(Term, Any, Hook) :-
     predicate_property(Hook, defined),
     clause(Hook, Body),
-    Body \= typhon_shown_lines:_,
+    Body \= typhon_text:_,
     (   var(Any),
         Body = Module:Goal,
         callable(Goal),

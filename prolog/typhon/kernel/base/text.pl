@@ -9,7 +9,8 @@
             lines_shown/2,              % +Text, -Shown
             formatted/3,                % +Format, +Args, -Text
             format_shown/2,             % +Format, +Args
-            format_shown/3              % +Out, +Format, +Args
+            format_shown/3,             % +Out, +Format, +Args
+            shown_lines/2               % +Lines0, -Lines
           ]).
 
 /** <module> The canonical text of a term, and text as it may be printed
@@ -22,19 +23,35 @@ escape sequences, because 10.1 cannot read some of them in quotes.
 
 Text that agents or peers chose may hold characters that control a terminal,
 begin a line, or hide other text.  shown_text/2 writes them as escape sequences.
-All messages (see typhon_shown_lines), tables and output of child processes pass
+All messages, tables and output of child processes pass
 through it.
 
+A clause of prolog:message//1, which comes first, translates messages of this
+library and errors by the other clauses, and writes characters that control the
+terminal, or hide text, as escape sequences.  So texts of messages
+may use ~w and ~p for any term.  Errors of SWI-Prolog are included, since an
+agent or a peer may have raised them.
+
 *Threading*: no shared state. The flags for writing and reading are local to a
-thread and are restored.
+thread and are restored; so is the variable of shown lines.
 */
 
-:- autoload(library(apply), [maplist/3]).
+:- use_module(library(apply), [maplist/3]).
 :- autoload(library(error), [resource_error/1, syntax_error/1]).
 :- autoload(library(listing), [portray_clause/3]).
-:- autoload(library(lists), [member/2]).
-:- autoload(library(memfile), [free_memory_file/1, memory_file_to_string/3,
-                                 new_memory_file/1, open_memory_file/4]).
+:- use_module(library(lists), [append/3, member/2, memberchk/2]).
+:- autoload(library(memfile),
+            [ free_memory_file/1, memory_file_to_string/3, new_memory_file/1,
+              open_memory_file/4 ]).
+
+:- dynamic user:exception/3.
+
+:- multifile
+    user:exception/3,
+    prolog:message//1,
+    prolog:message_line_element/2.
+
+:- public filtered//1.
 
 % Terms are read in a module of their own: it inherits from system, so that
 % operators in user do not reach it, and switches off those of system.
@@ -272,9 +289,6 @@ long_integers :-
                 *        TEXT FOR PEOPLE       *
                 *******************************/
 
-:- multifile user:exception/3.
-:- dynamic user:exception/3.
-
 %!  print_clause(+Out, +Clause, +Options) is det.
 %
 %   As portray_clause/3, but loads no library.  portray_clause/3 looks up the
@@ -433,3 +447,69 @@ hidden(0x13430, 0x1343f).
 hidden(0x1bca0, 0x1bca3).
 hidden(0x1d173, 0x1d17a).
 hidden(0xe0000, 0xe0fff).
+
+                /*******************************
+                *     LINES THAT ARE SHOWN     *
+                *******************************/
+
+prolog:message(Term) -->
+    typhon_text:filtered(Term).
+
+%   filtered(+Term)//: fails while it runs, so that the other clauses translate.
+
+filtered(Term, Lines, Rest) :-
+    passes(Term),
+    \+ nb_current(typhon_filtering, true),
+    b_setval(typhon_filtering, true),
+    prolog:translate_message(Term, Lines0, []),
+    b_setval(typhon_filtering, false),
+    !,
+    shown_lines(Lines0, Shown),
+    append(Shown, Rest, Lines).
+
+passes(typhon(_)).
+passes(error(_, _)).
+passes(unhandled_exception(_)).
+
+%   library(debug) translates messages of debug/3 itself.  Their arguments may
+%   hold newlines.
+
+prolog:message_line_element(Out, Format-Args) :-
+    nb_current(prolog_debug_printing, true),
+    catch(format(string(Text0), Format, Args), error(_, _), fail),
+    lines_shown(Text0, Text),
+    write(Out, Text).
+
+%!  shown_lines(+Lines0:list, -Lines:list) is det.
+%
+%   Lines are the message lines Lines0 with escape sequences, see shown_text/2.
+%   Elements without such text are the same in both.
+
+shown_lines(Lines0, Lines) :-
+    maplist(shown_element, Lines0, Lines).
+
+shown_element(Element0, Element) :-
+    nonvar(Element0),
+    parts(Element0, Format, Args, Other, Text),
+    catch(( format(string(Text0), Format, Args),
+            formatted(Format, Args, Text) ),
+          error(_, _), fail),           % print_message/2 reports that
+    Text \== Text0,
+    !,
+    Element = Other.
+shown_element(Element, Element).
+
+%   parts(+Element, -Format, -Args, -Other, -Text): Element prints Args by
+%   Format; Other prints Text instead.
+
+parts(Format-Args, Format, Args, '~w'-[Text], Text) :- !.
+parts(ansi(Style, Format, Args), Format, Args, ansi(Style, '~w', [Text]),
+      Text) :- !.
+parts(url(Place), '~w', [Place], '~w'-[Text], Text) :- !.
+parts(url(Place, Label), '~w ~w', [Place, Text0], '~w'-[Text], Text) :-
+    !,
+    ( Label = Format-Args -> format(string(Text0), Format, Args)
+    ; Text0 = Label ).
+parts(Format, Format, [], '~w'-[Text], Text) :-
+    ( atom(Format) ; string(Format) ),
+    \+ memberchk(Format, [nl, flush, full_stop, at_same_line]).
