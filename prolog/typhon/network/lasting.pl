@@ -11,7 +11,7 @@
           ]).
 :- use_module(library(apply), [exclude/3]).
 :- use_module(library(lists), [append/3, member/2]).
-:- use_module('../kernel/base/durable_changes', [durable_opened/1]).
+:- use_module('../kernel/base/durable', [durable_opened/1]).
 :- use_module('../kernel/base/names', [counted/3]).
 :- use_module('../kernel/base/options', [check_options/2]).
 :- use_module('../kernel/host', [host/3, hosts_rest/0]).

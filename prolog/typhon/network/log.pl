@@ -8,7 +8,7 @@
               [existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../kernel/base/monotonic', [monotonic_time/1]).
-:- use_module('../kernel/base/durable_changes', [durable_closed/0]).
+:- use_module('../kernel/base/durable', [durable_closed/0]).
 :- use_module('../kernel/base/error_text', [error_lines/3, print_error/2]).
 :- use_module('../kernel/base/names', [counted/3, must_be_name/2]).
 :- use_module('../kernel/base/options', [check_options/2]).

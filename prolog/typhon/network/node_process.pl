@@ -11,7 +11,7 @@
 :- use_module('../kernel/base/error_text', [error_text/2, print_error/2]).
 :- use_module('../kernel/base/process_setup',
               [on_stop_signals/1, process_setup/0]).
-:- use_module('../kernel/base/durable_changes', [durable_on/0]).
+:- use_module('../kernel/base/durable', [durable_on/0]).
 :- use_module('../kernel/wire',
               [ arrival_permitted/4, peer_expect/1, peer_expect_no_more/1,
                 endpoint_address/1, endpoint_flush/2, endpoint_reply/2 ]).

@@ -2,7 +2,7 @@
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../kernel/base/durable_changes',
+:- use_module('../kernel/base/durable',
               [deferred_act/4, durable_post/3, effects_deferred/0]).
 :- use_module('../kernel/base/error_text', [abridged/3]).
 :- use_module('../kernel/base/reports', [report/4]).
@@ -28,8 +28,8 @@ to the log server at once.
 */
 
 :- multifile
-    typhon_durable_changes:act/3,
-    typhon_durable_changes:undelivered/4,
+    typhon_durable:act/3,
+    typhon_durable:undelivered/4,
     typhon_events:handle_event/4,
     typhon_events:shown/3,
     typhon_host_parts:changeable/1,
@@ -127,7 +127,7 @@ post(Host, Agent, What, Endpoint-event(Log, Address, Agent, What)) :-
     host(Host, Address, _),
     address_parts(Log, _, Endpoint).
 
-typhon_durable_changes:act(logged, Host, Agent-What) :-
+typhon_durable:act(logged, Host, Agent-What) :-
     (   post(Host, Agent, What, Endpoint-Event)
     ->  catch(durable_post(Endpoint, log, Event),
               error(resource_error(frame_bytes), Context),
@@ -138,7 +138,7 @@ typhon_durable_changes:act(logged, Host, Agent-What) :-
 
 %   The log server is gone, or cannot take the event: print it here.
 
-typhon_durable_changes:undelivered(log, event(_, Host, Agent, What), _, _) :-
+typhon_durable:undelivered(log, event(_, Host, Agent, What), _, _) :-
     print_message(informational, typhon(log(Host, Agent, What))).
 
                 /*******************************

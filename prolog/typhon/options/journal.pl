@@ -12,7 +12,7 @@
 /** <module> The journal: durable state of a process
 
 The journal records agents as they change and commits the changes that the
-kernel queues, see typhon_durable_changes, in batches to a database.  A process
+kernel queues, see typhon_durable, in batches to a database.  A process
 that is started again restores its state from the journal.  This interface, or
 hooks of the kernel, load the modules of the journal with its first use.
 

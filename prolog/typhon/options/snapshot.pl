@@ -10,8 +10,7 @@
 :- use_module(library(ordsets), [ord_subtract/3]).
 :- use_module('../kernel/base/monotonic', [poll_within/2]).
 :- use_module('../kernel/base/durable',
-              [ durable/6, durable_dump/4, durable_kinds/2,
-                durable_restore/4 ]).
+              [durable/6, durable_dump/4, durable_kinds/2, durable_restore/4]).
 :- use_module('../kernel/program', [code_receive/2, code_sent/2]).
 :- use_module('../kernel/wire', [mobile_term/1]).
 :- use_module('../kernel/host',

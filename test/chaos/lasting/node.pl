@@ -39,29 +39,29 @@ meanwhile. power.pl does the rest.
     begins/2,                           % Name, Options of its host
     fails/0.                            % the power fails
 
-:- multifile typhon_durable_changes:reached/1.
+:- multifile typhon_durable:reached/1.
 
-typhon_durable_changes:reached(in_commit) :-
+typhon_durable:reached(in_commit) :-
     slow(Seconds),
     sleep(Seconds),                     % a wait with a deadline may not end in
     fail.                               % sig_atomic/1
-typhon_durable_changes:reached(Point) :-
+typhon_durable:reached(Point) :-
     \+ fails,
     happens(dies),
     !,
     format(user_error, 'dies at ~w~n', [Point]),
     die.
-typhon_durable_changes:reached(after_commit) :-
+typhon_durable:reached(after_commit) :-
     fails,
     !,
     wait_for_death.
-typhon_durable_changes:reached(after_commit) :-
+typhon_durable:reached(after_commit) :-
     happens(power),
     !,
     journal(Dir),
     power_copy(Dir),
     assertz(fails).
-typhon_durable_changes:reached(in_commit) :-
+typhon_durable:reached(in_commit) :-
     fails,
     !,
     thread_create(die_soon, _, [detached(true)]).

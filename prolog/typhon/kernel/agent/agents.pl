@@ -29,7 +29,7 @@
             agent_wakes/2,              % +Id, +Goals
             agent_mail/2                % +Id, +Messages
           ]).
-:- use_module('../base/durable_changes',
+:- use_module('../base/durable',
               [durable_drop/3, durable_on/0, enqueue_changes/0]).
 :- use_module('../program', [plain_goals/2]).
 :- use_module('../host', [events_forget/1, parts_call/3, schedule/2]).

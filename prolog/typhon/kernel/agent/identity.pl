@@ -14,8 +14,7 @@
 :- use_module(library(error), [representation_error/1]).
 :- use_module(library(lists), [append/3]).
 :- use_module('../base/monotonic', [monotonic_time/1]).
-:- use_module('../base/durable', [durable/6]).
-:- use_module('../base/durable_changes', [durable_key/2, durable_on/0]).
+:- use_module('../base/durable', [durable/6, durable_key/2, durable_on/0]).
 :- use_module('../wire', [endpoint_address/1]).
 :- use_module('../host', [time_repeats/2]).
 

@@ -17,7 +17,7 @@
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(settings), [setting/4]).
 :- use_module('../base/bounds', [bounded/3]).
-:- use_module('../base/durable_changes', [durable_key/2, durable_on/0]).
+:- use_module('../base/durable', [durable_key/2, durable_on/0]).
 :- use_module('../program', [code_sent/2]).
 :- use_module('../wire', []).
 :- use_module('../host', [amended/5, event_subscribed/1, host/3, parts/3]).

@@ -22,10 +22,10 @@
 :- use_module(identity, [with_agent/2]).
 :- use_module('../base/fifo', [fifo_empty/2, fifo_size/2, fifo_take/2]).
 :- use_module('../base/reports', [report/4]).
-:- use_module('../base/durable', [durable/6]).
-:- use_module('../base/durable_changes',
-              [ durable_drop/3, durable_drop_all/2, durable_number/1,
-                durable_on/0, durable_put/4, enqueue_changes/0 ]).
+:- use_module('../base/durable',
+              [ durable/6, durable_drop/3, durable_drop_all/2,
+                durable_number/1, durable_on/0, durable_put/4,
+                enqueue_changes/0 ]).
 
 /** <module> The mailbox and the orders of an agent
 

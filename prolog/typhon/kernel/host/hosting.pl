@@ -20,7 +20,7 @@
 :- use_module('../base/monotonic', [monotonic_time/1]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../base/own_thread', [in_own_thread/1, stop_steps/1]).
-:- use_module('../base/durable_changes',
+:- use_module('../base/durable',
               [ durable_close/0, durable_closed/0, durable_end/0,
                 sync_changes/0 ]).
 :- use_module('../wire', [endpoint_address/1]).
@@ -279,7 +279,7 @@ stop(Name) :-
 
 %   The order of a stop.  The close of the journal comes first: for the journal
 %   and for all peers the process ends there, and what its threads do until they
-%   have stopped is dropped, see typhon_durable_changes.
+%   have stopped is dropped, see typhon_durable.
 
 stop_one(Name0) :-
     local_name(Name0, Name),

@@ -23,9 +23,8 @@
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/monotonic', [monotonic_time/1]).
-:- use_module('../base/durable', [durable/6]).
-:- use_module('../base/durable_changes',
-              [durable_drop/3, durable_on/0, durable_put/4]).
+:- use_module('../base/durable',
+              [durable/6, durable_drop/3, durable_on/0, durable_put/4]).
 :- use_module('../base/bounds', [memory_short/1]).
 :- use_module(clocks, [clock/3, host_time/2]).
 :- use_module(time, [time_now/1]).

@@ -15,8 +15,7 @@ A link is recorded in one direction; the other host records the other.
 *Threading*: any thread; one mutex for changes.
 */
 
-:- use_module('../base/durable', [durable/6]).
-:- use_module('../base/durable_changes', [durable_drop/3, durable_put/4]).
+:- use_module('../base/durable', [durable/6, durable_drop/3, durable_put/4]).
 
 :- dynamic
     neighbour/2,                % Name, Address

@@ -14,10 +14,9 @@
               [existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(lists), [member/2, subtract/3]).
 :- use_module('../base/error_text', [print_error/2]).
-:- use_module('../base/durable', [durable/6]).
-:- use_module('../base/durable_changes',
-              [ deferred_drop/3, durable_drop/3, durable_drop_all/2,
-                durable_on/0, durable_put/4 ]).
+:- use_module('../base/durable',
+              [ deferred_drop/3, durable/6, durable_drop/3,
+                durable_drop_all/2, durable_on/0, durable_put/4 ]).
 :- use_module('../program', [clause_parts/3, indicator_in/2, library_hook/0]).
 
 /** <module> Places: what a host offers to the agents on it

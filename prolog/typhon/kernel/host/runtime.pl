@@ -20,7 +20,7 @@
 :- use_module('../base/own_thread',
               [ in_own_thread/1, own_thread_start/0, own_thread_stop/0,
                 stop_steps/1 ]).
-:- use_module('../base/durable_changes', [durable_end/0]).
+:- use_module('../base/durable', [durable_end/0]).
 :- use_module('../program', [code_clear/0]).
 :- use_module('../wire',
               [ endpoint_address/1, endpoint_call/5, endpoint_listen/2,

@@ -9,8 +9,8 @@
             tuple_on/4                  % ?Host, ?Fact, -N, -By
           ]).
 :- use_module(library(error), [must_be/2]).
-:- use_module('../base/durable', [durable/6]).
-:- use_module('../base/durable_changes', [durable_on/0, effects_deferred/0]).
+:- use_module('../base/durable',
+              [durable/6, durable_on/0, effects_deferred/0]).
 :- use_module(place, [place_host/2]).
 
 /** <module> Tuple spaces: facts that all agents on a host see

@@ -6,7 +6,7 @@
             clone_id/2                  % +Id, -CloneId
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module('../base/durable_changes', [sync_changes/0, unit_of_work/1]).
+:- use_module('../base/durable', [sync_changes/0, unit_of_work/1]).
 :- use_module('../host',
               [ amended/5, event/4, host/3, host_address/2, host_unknown/1 ]).
 :- use_module('../agent',

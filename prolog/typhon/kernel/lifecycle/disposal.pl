@@ -10,7 +10,7 @@
 :- use_module('../base/monotonic', [monotonic_time/1]).
 :- use_module('../base/own_thread', [abort_quietly/0, in_own_thread/1]).
 :- use_module('../base/options', [check_options/2]).
-:- use_module('../base/durable_changes', [durable_closed/0]).
+:- use_module('../base/durable', [durable_closed/0]).
 :- use_module('../program', [machine_inside/0]).
 :- use_module('../host',
               [ alarm_set/3, context_now/2, host_load/2, real_time/3,

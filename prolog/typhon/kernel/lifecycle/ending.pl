@@ -10,7 +10,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../base/durable_changes', [unit_of_work/1]).
+:- use_module('../base/durable', [unit_of_work/1]).
 :- use_module('../base/reports', [report/4]).
 :- use_module('../host',
               [event/4, events_forget/1, host/3, host_again/1, host_leave/1]).

@@ -44,7 +44,7 @@ questions of other processes.
 :- use_module(library(settings), [setting/4]).
 :- use_module('../agent', [agent/5, agent_home_endpoint/2, agent_name/3]).
 :- use_module('../base/bounds', [bounded/3]).
-:- use_module('../base/durable_changes', [sync_after/1]).
+:- use_module('../base/durable', [sync_after/1]).
 :- use_module('../base/error_text', [harmless_error/2]).
 :- use_module('../base/monotonic', [monotonic_time/1, wait_before/2]).
 :- use_module('../base/on_demand',

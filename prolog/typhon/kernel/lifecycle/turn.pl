@@ -4,7 +4,7 @@
             turn_bounded/1,             % +Host
             turn_over_limit/3           % +Host, +Id, +What
           ]).
-:- use_module('../base/durable_changes', [unit_of_work/1]).
+:- use_module('../base/durable', [unit_of_work/1]).
 :- use_module('../base/own_thread', [aborted_quietly/0]).
 :- use_module('../base/reports', [report/4]).
 :- use_module('../program',

@@ -2,9 +2,8 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [append/3]).
 :- use_module('../base/error_text', [print_error/2]).
-:- use_module('../base/durable', [durable/5]).
-:- use_module('../base/durable_changes',
-              [ crash_point/1, durable_drop_below/3, durable_key/2,
+:- use_module('../base/durable',
+              [ crash_point/1, durable/5, durable_drop_below/3, durable_key/2,
                 durable_on/0, durable_put/4, enqueue_changes/0,
                 unit_of_work/1 ]).
 :- use_module('../wire',

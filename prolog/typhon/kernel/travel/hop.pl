@@ -60,7 +60,7 @@ agent; answers and taken_over/4 in the threads of the endpoint, which never wait
                 image_hash/2, image_held/2, life_before/2, life_came/2,
                 life_goes/3, life_hop/3, mail_all/2, mail_back/2,
                 mail_waits/1, program_missing/2, program_sent/3, with_agent/2 ]).
-:- use_module('../base/durable_changes',
+:- use_module('../base/durable',
               [commits_must_succeed/0, crash_point/1, durable_on/0]).
 :- use_module('../base/error_text', [print_error/2]).
 :- use_module('../host',

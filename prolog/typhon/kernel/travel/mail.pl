@@ -45,10 +45,9 @@ for a connection; one_letter/2 is pure.
 :- use_module('../agent',
               [ agent/5, agent_home/2, agent_home_endpoint/2, agent_mail/2,
                 agent_on/2, mail_fitting/4, mail_full/2, with_agent/2 ]).
-:- use_module('../base/durable', [durable/6]).
-:- use_module('../base/durable_changes',
-              [ deferred_act/4, durable_drop_all/2, durable_number/1,
-                durable_on/0, durable_post/3, durable_put/4,
+:- use_module('../base/durable',
+              [ deferred_act/4, durable/6, durable_drop_all/2,
+                durable_number/1, durable_on/0, durable_post/3, durable_put/4,
                 effects_deferred/0, enqueue_changes/0, unit_of_work/1 ]).
 :- use_module('../base/fifo', [fifo_empty/2]).
 :- use_module('../base/reports', [report/4, report/5]).
@@ -70,12 +69,12 @@ for a connection; one_letter/2 is pure.
     waits/4.                            % Id, Queue, Tries, State: idle or tried
 
 :- multifile
-    typhon_durable_changes:act/3,
+    typhon_durable:act/3,
     typhon_endpoint:received/3,
     typhon_endpoint:together/3,
     returned/3,                         % From, Id, Message: the bridge of From takes
                                         % it back
-    typhon_durable_changes:undelivered/4,
+    typhon_durable:undelivered/4,
     typhon_durable:go_on/0,
     typhon_runtime:ending/1,
     typhon_scheduler:fire/2,
@@ -123,7 +122,7 @@ retry_if_waiting(Way, _, Way).
 
 %   A message that an agent sends is noted in the turn, and leaves after it.
 
-typhon_durable_changes:act(letter, Id, From-Message) :-
+typhon_durable:act(letter, Id, From-Message) :-
     catch(post_now(Id, From, Message), error(Formal, _),
           report(warning, lost_messages, Id,
                  typhon(undeliverable(Formal, Id, From, Message)))).
@@ -510,10 +509,10 @@ came_back(Formal, Id, Mail) :-
     ;   report(Formal, Id, Sent)
     ).
 
-typhon_durable_changes:undelivered(message, shown(_, Message), Endpoint,
+typhon_durable:undelivered(message, shown(_, Message), Endpoint,
                                    Formal) :-
-    typhon_durable_changes:undelivered(message, Message, Endpoint, Formal).
-typhon_durable_changes:undelivered(message, message(Id, Mail, _), _, Formal) :-
+    typhon_durable:undelivered(message, Message, Endpoint, Formal).
+typhon_durable:undelivered(message, message(Id, Mail, _), _, Formal) :-
     mail_lost(Formal, Id, Mail).
 
                 /*******************************

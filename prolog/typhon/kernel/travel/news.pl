@@ -6,7 +6,7 @@
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/monotonic', [monotonic_time/1]).
-:- use_module('../base/durable_changes', [durable_on/0, durable_post/3]).
+:- use_module('../base/durable', [durable_on/0, durable_post/3]).
 :- use_module('../base/reports', [report/4]).
 :- use_module('../wire', [endpoint_post/3, endpoint_post_by/4]).
 :- use_module(sender_authorization, [with_proof/5]).
@@ -31,7 +31,7 @@ that waits for the next attempt.
            "Seconds that news of a location waits for more news").
 
 :- multifile
-    typhon_durable_changes:undelivered/4,
+    typhon_durable:undelivered/4,
     typhon_runtime:ending/1,
     typhon_scheduler:fire/2.
 
@@ -222,10 +222,10 @@ posted_in_parts(All, Post, Home) :-
     posted(Post, Home, First),
     posted(Post, Home, Rest).
 
-typhon_durable_changes:undelivered(whereabouts, shown(_, All), Home, Formal) :-
+typhon_durable:undelivered(whereabouts, shown(_, All), Home, Formal) :-
     !,
-    typhon_durable_changes:undelivered(whereabouts, All, Home, Formal).
-typhon_durable_changes:undelivered(whereabouts, All, Home, resource_error(_)) :-
+    typhon_durable:undelivered(whereabouts, All, Home, Formal).
+typhon_durable:undelivered(whereabouts, All, Home, resource_error(_)) :-
     posted_in_parts(All, durable_post, Home).
 
 take(Home, All) :-

@@ -9,9 +9,8 @@
 :- use_module(library(settings), [setting/4]).
 :- use_module('../base/bounds', [bounded/3]).
 :- use_module('../base/durable',
-              [ durable/5, durable/6, durable_assertz/1,
+              [ durable/5, durable/6, durable_assertz/1, durable_drop_all/2,
                 durable_retractall/1 ]).
-:- use_module('../base/durable_changes', [durable_drop_all/2]).
 :- use_module('../wire', [endpoint_address/1, endpoint_reply/2]).
 :- use_module('../host', [process_ask/6]).
 :- use_module('../agent', [agent/5, cloned_put/2]).

@@ -56,10 +56,9 @@ resolve_in_doubt/1 in reader threads, which never wait; ask_peers/2 in a worker.
               [ agent/5, agent_home_endpoint/2, agent_put/3, agent_ready/2,
                 agent_remove/2, agent_status/3, image_clone/5, image_hop/6,
                 life_hops/2, mail_all/2, mail_back/2, with_agent/2 ]).
-:- use_module('../base/durable', [durable/5, durable_assertz/1]).
-:- use_module('../base/durable_changes',
-              [ crash_point/1, durable_drop/3, durable_on/0,
-                enqueue_changes/0, unit_of_work/1 ]).
+:- use_module('../base/durable',
+              [ crash_point/1, durable/5, durable_assertz/1, durable_drop/3,
+                durable_on/0, enqueue_changes/0, unit_of_work/1 ]).
 :- use_module('../base/monotonic', [monotonic_time/1]).
 :- use_module('../base/reports', [report/4]).
 :- use_module('../host',

@@ -51,10 +51,9 @@ addresses.  A courier sends news to the home, since that may have to connect.
 :- use_module(library(settings), [setting/4]).
 :- use_module('../agent', [agent_home_endpoint/2, is_result_fact/1]).
 :- use_module('../base/bounds', [bounded/3]).
-:- use_module('../base/durable', [durable/5, durable/6, durable_assertz/1]).
-:- use_module('../base/durable_changes',
-              [ durable_drop/3, durable_drop_all/2, durable_on/0,
-                durable_put/4 ]).
+:- use_module('../base/durable',
+              [ durable/5, durable/6, durable_assertz/1, durable_drop/3,
+                durable_drop_all/2, durable_on/0, durable_put/4 ]).
 :- use_module('../host', [address_parts/3, alarm_in/3]).
 :- use_module('../wire',
               [ arrival_permitted/4, endpoint_address/1, endpoint_gone/1,

@@ -52,7 +52,7 @@ flushes are for any thread that may wait.
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2, min_list/2, min_member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../base/durable_changes', [commit_changes/0]).
+:- use_module('../base/durable', [commit_changes/0]).
 :- use_module('../base/error_text', [print_error/2]).
 :- use_module('../base/monotonic', [monotonic_time/1, wait_before/2]).
 :- use_module(connection, [outgoing/2]).

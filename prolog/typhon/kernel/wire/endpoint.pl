@@ -45,7 +45,7 @@ under the mutex of the endpoint.
               [ tcp_bind/2, tcp_close_socket/1, tcp_listen/2,
                 tcp_open_socket/3, tcp_setopt/2, tcp_socket/1 ]).
 :- use_module('../base/compiling', [compiling_load/1]).
-:- use_module('../base/durable_changes',
+:- use_module('../base/durable',
               [ durable_item/5, durable_opened/1, durable_put/4,
                 sync_changes/0 ]).
 :- use_module('../base/own_thread', [in_own_thread/1, stop_steps/1]).

@@ -25,7 +25,7 @@ wait, and are not for the threads of the endpoint.
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [append/3, member/2, selectchk/3, subtract/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../base/durable_changes', [commits_must_succeed/0]).
+:- use_module('../base/durable', [commits_must_succeed/0]).
 :- use_module('../base/monotonic',
               [monotonic_time/1, wait_within/2]).
 :- use_module('../base/on_demand', [on_demand_load/2]).

@@ -26,8 +26,7 @@ error is recorded. The number of addresses is bounded, the oldest are discarded.
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/bounds', [bounded/3]).
-:- use_module('../base/durable', [durable/5]).
-:- use_module('../base/durable_changes', [durable_drop/3, durable_put/4]).
+:- use_module('../base/durable', [durable/5, durable_drop/3, durable_put/4]).
 :- use_module(session,
               [ route/2, route_up/2, session_codec/2, session_key/2,
                 session_pending/2, session_proof/2, session_up/1 ]).

@@ -94,7 +94,7 @@ has no pusher, only held posts wait.
 :- use_module(library(error), [permission_error/3, resource_error/1]).
 :- use_module(library(lists), [append/3, list_to_set/2, member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../base/durable_changes',
+:- use_module('../base/durable',
               [durable_on/0, flush_sends/0, send_after_commit/2]).
 :- use_module('../base/error_text', [print_error/2]).
 :- use_module('../base/monotonic', [monotonic_time/1]).
@@ -131,7 +131,7 @@ has no pusher, only held posts wait.
     pusher/2,                           % Key, Thread: it alone may write
     control/3.                          % Key, Kind, Bytes: written first
 
-:- multifile typhon_durable_changes:committed/1.
+:- multifile typhon_durable:committed/1.
 
 %!  session(?Key, -Session) is nondet.
 %
@@ -753,7 +753,7 @@ send_committed(Session, Bytes, Token, When) :-
 
 %   All frames are written to buffers before the first buffer is flushed.
 
-typhon_durable_changes:committed(Frames) :-
+typhon_durable:committed(Frames) :-
     forall(member(Frame, Frames), put_committed(Frame)),
     findall(Session, member(frame(Session, _, _), Frames), Sessions0),
     list_to_set(Sessions0, Sessions),

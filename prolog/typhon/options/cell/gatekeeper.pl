@@ -2,7 +2,7 @@
 :- use_module(library(apply), [foldl/4]).
 :- use_module(library(lists), [append/2, member/2, reverse/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
-:- use_module('../../kernel/base/durable_changes', [durable_on/0]).
+:- use_module('../../kernel/base/durable', [durable_on/0]).
 :- use_module('../../kernel/base/reports', [report/4]).
 :- use_module('../../kernel/program',
               [code_sent/2, fault_note/1, plain_goals/2]).

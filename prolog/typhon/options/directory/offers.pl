@@ -11,8 +11,8 @@
 :- use_module(library(lists), [append/2, append/3, member/2]).
 :- use_module(library(ordsets), [ord_subtract/3, ord_union/3]).
 :- use_module('../../kernel/base/trees', [is_tree/2]).
-:- use_module('../../kernel/base/durable', [durable/5, durable_assertz/1]).
-:- use_module('../../kernel/base/durable_changes', [durable_drop/3]).
+:- use_module('../../kernel/base/durable',
+              [durable/5, durable_assertz/1, durable_drop/3]).
 :- use_module('../../kernel/agent', [agent/5, agent_status/3, life_hops/2]).
 :- use_module('../../kernel/wire',
               [endpoint_address/1, endpoint_ask_all/6, endpoint_reply/2]).

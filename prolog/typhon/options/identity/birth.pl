@@ -10,9 +10,8 @@
 :- use_module(library(settings), [setting/4]).
 :- use_module('../../kernel/base/bounds', [bounded/3]).
 :- use_module('../keys', [keys_sign/3, keys_verify/4, own_keys/1]).
-:- use_module('../../kernel/base/durable', [durable/6]).
-:- use_module('../../kernel/base/durable_changes',
-              [durable_drop/3, durable_put/4]).
+:- use_module('../../kernel/base/durable',
+              [durable/6, durable_drop/3, durable_put/4]).
 :- use_module('../../kernel/wire',
               [ endpoint_address/1, endpoint_own_proof/1, endpoint_peer/2,
                 endpoint_proof/2 ]).

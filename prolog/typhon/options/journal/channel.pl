@@ -4,10 +4,9 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
-:- use_module('../../kernel/base/durable', [durable/5]).
-:- use_module('../../kernel/base/durable_changes',
-              [ crash_point/1, durable_drop/3, durable_drop_below/3,
-                durable_closed/0, durable_number/1, durable_put/4,
+:- use_module('../../kernel/base/durable',
+              [ crash_point/1, durable/5, durable_closed/0, durable_drop/3,
+                durable_drop_below/3, durable_number/1, durable_put/4,
                 enqueue_changes/0, unit_of_work/1 ]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/wire',
@@ -47,7 +46,7 @@ acknowledges them.
 :- meta_predicate changing_posts(+, 0).
 
 :- multifile
-    typhon_durable_changes:durable_post/3,
+    typhon_durable:durable_post/3,
     typhon_endpoint:connection/2,
     typhon_endpoint:received/3,
     typhon_durable:go_on/0,
@@ -72,7 +71,7 @@ longest_pause(1).               % seconds between attempts
 ack_seconds(0.02).
 addresses(16).                  % of this process, that a process may use
 
-typhon_durable_changes:durable_post(Endpoint, Kind, Term) :-
+typhon_durable:durable_post(Endpoint, Kind, Term) :-
     changing_posts(
         Endpoint,
         ( durable_number(N),
@@ -248,7 +247,7 @@ forget_all(Endpoint) :-
 
 report_undelivered(Lost, Endpoint, Formal) :-
     forall(member(Kind-Term, Lost),
-           ignore(typhon_durable_changes:undelivered(Kind, Term, Endpoint,
+           ignore(typhon_durable:undelivered(Kind, Term, Endpoint,
                                                      Formal))).
 
                 /*******************************

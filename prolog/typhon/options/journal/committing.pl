@@ -10,8 +10,7 @@
 :- use_module(library(lists), [append/3, reverse/2]).
 :- use_module(library(rbtrees), [rb_insert_new/4, rb_new/1]).
 :- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
-:- use_module('../../kernel/base/durable_changes',
-              [crash_point/1, durable_closed/0]).
+:- use_module('../../kernel/base/durable', [crash_point/1, durable_closed/0]).
 :- use_module('../../kernel/base/fifo', [fifo_empty/2]).
 :- use_module('../../kernel/base/server',
               [server_cast/2, server_start/4, server_stop/1]).
@@ -39,8 +38,8 @@ must not commit.
 */
 
 :- multifile
-    typhon_durable_changes:commit_error/1,
-    typhon_durable_changes:end_commits/0.
+    typhon_durable:commit_error/1,
+    typhon_durable:end_commits/0.
 
 :- dynamic
     queue/3,                            % Entries, Committer, Sync
@@ -78,7 +77,7 @@ file_too_long(_).
 
 %   Fails if commits had not begun.
 
-typhon_durable_changes:end_commits :-
+typhon_durable:end_commits :-
     retract(committer(Committer)),
     !,
     server_stop(Committer),
@@ -156,7 +155,7 @@ wake(How) :-
 urgency(idle, 1).
 urgency(now, 2).
 
-typhon_durable_changes:commit_error(Error) :-
+typhon_durable:commit_error(Error) :-
     reported(Error).
 
 %   What happens after the journal was closed has not happened.
@@ -247,7 +246,7 @@ commit_all(Entries) :-
     ).
 
 release(Items) :-
-    catch(ignore(typhon_durable_changes:committed(Items)),
+    catch(ignore(typhon_durable:committed(Items)),
           error(Formal, Context),
           print_message(error, error(Formal, Context))).
 

@@ -5,9 +5,8 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(terms), [term_size/2]).
-:- use_module('../../kernel/base/durable', [durable/5]).
-:- use_module('../../kernel/base/durable_changes',
-              [ durable_drop_all/2, durable_item/5, durable_on/0,
+:- use_module('../../kernel/base/durable',
+              [ durable/5, durable_drop_all/2, durable_item/5, durable_on/0,
                 enqueue_changes/0, unit_of_work/1 ]).
 :- use_module('../../kernel/program', [code_receive/2, code_sent/2]).
 :- use_module('../../kernel/agent',

@@ -1,7 +1,6 @@
 :- module(typhon_journaled_tuples, []).
-:- use_module('../../kernel/base/durable', [durable/6]).
-:- use_module('../../kernel/base/durable_changes',
-              [ deferred_drop/3, durable_number/1, durable_on/0,
+:- use_module('../../kernel/base/durable',
+              [ deferred_drop/3, durable/6, durable_number/1, durable_on/0,
                 effects_deferred/0 ]).
 :- use_module('../../kernel/host',
               [place_host/2, tuple_on/4, tuple_put/4, tuple_restored/4]).

@@ -6,12 +6,10 @@
 :- use_module(library(lists), [append/3, member/2, selectchk/3]).
 :- use_module(library(option), [option/3]).
 :- use_module('../../kernel/base/durable',
-              [ durable/6, durable_kinds/2, durable_order/2,
-                durable_restore/4 ]).
+              [ durable/6, durable_close/0, durable_drop_all/2, durable_end/0,
+                durable_item/5, durable_kinds/2, durable_opened/1,
+                durable_order/2, durable_restore/4 ]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
-:- use_module('../../kernel/base/durable_changes',
-              [ durable_close/0, durable_drop_all/2, durable_end/0,
-                durable_item/5, durable_opened/1 ]).
 :- use_module('../../kernel/host',
               [ guests_leave/0, host/3, host_again/1, host_begin/2,
                 host_end/1, host_note/1, hosts_exclusively/1, hosts_go_on/0,

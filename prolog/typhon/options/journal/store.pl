@@ -9,7 +9,7 @@
             journal_item/5              % +Kind, +Order, -Key, -N, -Value
           ]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../../kernel/base/durable_changes', [crash_point/1]).
+:- use_module('../../kernel/base/durable', [crash_point/1]).
 :- use_module('../../kernel/base/prolog_faults', [fast_bytes_term/2]).
 :- use_module(database,
               [ database/3, database_connect/4, database_forgets/4,
@@ -41,9 +41,9 @@ is stored in parts.
 */
 
 :- multifile
-    typhon_durable_changes:durable_opened/1,
-    typhon_durable_changes:durable_item/5,
-    typhon_durable_changes:close_store/0,
+    typhon_durable:durable_opened/1,
+    typhon_durable:durable_item/5,
+    typhon_durable:close_store/0,
     typhon_options:declared/4.
 
 :- dynamic
@@ -165,7 +165,7 @@ journal_found(Where) :-
 %
 %   Sync is that of the open store; close the store.
 
-typhon_durable_changes:durable_opened(Place) :-
+typhon_durable:durable_opened(Place) :-
     connection(Place, _).
 
 store_sync(Sync) :-
@@ -177,7 +177,7 @@ store_close :-
     ;   true
     ).
 
-typhon_durable_changes:close_store :-
+typhon_durable:close_store :-
     store_close.
 
 forget(Connection) :-
@@ -328,7 +328,7 @@ journal_item(Kind, Order, Key, N, Value) :-
     ;   throw(error(journal_damaged(Place, Kind-Key), _))
     ).
 
-typhon_durable_changes:durable_item(Kind, Order, Key, N, Value) :-
+typhon_durable:durable_item(Kind, Order, Key, N, Value) :-
     journal_item(Kind, Order, Key, N, Value).
 
 order(any, '').

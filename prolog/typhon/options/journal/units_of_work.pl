@@ -17,9 +17,8 @@
 :- use_module(library(error), [existence_error/2, resource_error/1]).
 :- use_module(library(lists), [member/2]).
 :- autoload(library(uri), [uri_encoded/3]).
-:- use_module('../../kernel/base/durable', [durable/5]).
-:- use_module('../../kernel/base/durable_changes',
-              [ durable_begin/0, durable_closed/0, durable_drop/3,
+:- use_module('../../kernel/base/durable',
+              [ durable/5, durable_begin/0, durable_closed/0, durable_drop/3,
                 durable_key/2, durable_on/0, unit_of_work/1 ]).
 :- use_module('../../kernel/base/on_demand', [on_demand_load/2]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
@@ -30,7 +29,7 @@
 
 /** <module> Units of work, and effects that are deferred
 
-This module turns the changes of the kernel, see typhon_durable_changes, into
+This module turns the changes of the kernel, see typhon_durable, into
 entries of the queue of typhon_committing.
 
 The changes of unit_of_work/1 are one entry.  The messages that an agent sends,
@@ -49,19 +48,19 @@ effects.
 :- multifile
     dropped/1,                          % Changes: their unit of work has failed
     typhon_durable:go_on/0,
-    typhon_durable_changes:change/1,
-    typhon_durable_changes:commit/0,
-    typhon_durable_changes:deferred_act/4,
-    typhon_durable_changes:deferred_drop/3,
-    typhon_durable_changes:deferring/0,
-    typhon_durable_changes:durable_key/2,
-    typhon_durable_changes:enqueue/0,
-    typhon_durable_changes:flush_sends/0,
-    typhon_durable_changes:in_unit/1,
-    typhon_durable_changes:must_keep/0,
-    typhon_durable_changes:next_number/1,
-    typhon_durable_changes:send_after_commit/2,
-    typhon_durable_changes:sync/0.
+    typhon_durable:change/1,
+    typhon_durable:commit/0,
+    typhon_durable:deferred_act/4,
+    typhon_durable:deferred_drop/3,
+    typhon_durable:deferring/0,
+    typhon_durable:durable_key/2,
+    typhon_durable:enqueue/0,
+    typhon_durable:flush_sends/0,
+    typhon_durable:in_unit/1,
+    typhon_durable:must_keep/0,
+    typhon_durable:next_number/1,
+    typhon_durable:send_after_commit/2,
+    typhon_durable:sync/0.
 
 :- thread_local
     pending/1,                          % Change
@@ -84,7 +83,7 @@ changes_begin :-
 %   Numbers stay unique after a restart: an item that is written every 10,000
 %   numbers holds where they begin.
 
-typhon_durable_changes:next_number(N) :-
+typhon_durable:next_number(N) :-
     flag(typhon_durable_number, N, N+1),
     (   N mod 10000 =:= 0
     ->  number_bound(N)
@@ -105,7 +104,7 @@ changes_number_after(N) :-
 %   A commit that the database refuses is repeated for ever, and all later ones
 %   wait: so keys are checked first.
 
-typhon_durable_changes:durable_key(Key, N) :-
+typhon_durable:durable_key(Key, N) :-
     integer(N),
     N >= -(1<<63),
     N < 1<<63,
@@ -129,7 +128,7 @@ is_text(Key) :-
                 *            CHANGES           *
                 *******************************/
 
-typhon_durable_changes:change(Change) :-
+typhon_durable:change(Change) :-
     (   stored_as(Change, Stored)
     ->  changes_add(Stored)
     ;   true
@@ -216,7 +215,7 @@ changes_add(Change) :-
     ;   queue_entry([Change])
     ).
 
-typhon_durable_changes:in_unit(Goal) :-
+typhon_durable:in_unit(Goal) :-
     (   nb_current(typhon_durable_unit, true)
     ->  once(Goal)
     ;   setup_call_cleanup(nb_setval(typhon_durable_unit, true),
@@ -232,7 +231,7 @@ drop_pending :-
     ;   true
     ).
 
-typhon_durable_changes:enqueue :-
+typhon_durable:enqueue :-
     enqueue.
 
 enqueue :-
@@ -246,19 +245,19 @@ enqueue :-
                 *            COMMIT            *
                 *******************************/
 
-typhon_durable_changes:sync :-
+typhon_durable:sync :-
     enqueue,
     commit_queue,
     queue_must_keep.
 
-typhon_durable_changes:must_keep :-
+typhon_durable:must_keep :-
     queue_must_keep.
 
-typhon_durable_changes:commit :-
+typhon_durable:commit :-
     enqueue,
     commit_queue.
 
-typhon_durable_changes:send_after_commit(Item, When) :-
+typhon_durable:send_after_commit(Item, When) :-
     enqueue,
     (   queue_send(Item)
     ->  true
@@ -269,7 +268,7 @@ typhon_durable_changes:send_after_commit(Item, When) :-
     ;   queue_flush
     ).
 
-typhon_durable_changes:flush_sends :-
+typhon_durable:flush_sends :-
     queue_flush.
 
                 /*******************************
@@ -289,7 +288,7 @@ defer_effects(Goal) :-
     ;   call(Goal)
     ).
 
-typhon_durable_changes:deferring :-
+typhon_durable:deferring :-
     nb_current(typhon_deferred, true).
 
 %!  deferred_put(+Kind, +Key, +N, +Term) is det.
@@ -300,12 +299,12 @@ typhon_durable_changes:deferring :-
 deferred_put(Kind, Key, N, Term) :-
     defer(put(Kind, Key, N, Term)).
 
-typhon_durable_changes:deferred_drop(Kind, Key, N) :-
+typhon_durable:deferred_drop(Kind, Key, N) :-
     defer(drop(Kind, Key, N)).
 
 defer(Change) :-
     (   \+ nb_current(typhon_deferred, true)
-    ->  typhon_durable_changes:change(Change)
+    ->  typhon_durable:change(Change)
     ;   stored_as(Change, Stored)
     ->  assertz(deferred(Stored))
     ;   true
@@ -318,8 +317,8 @@ defer(Change) :-
 deferred_call(Goal) :-
     assertz(after(Goal)).
 
-typhon_durable_changes:deferred_act(Kind, Key, Term, By) :-
-    typhon_durable_changes:next_number(N),
+typhon_durable:deferred_act(Kind, Key, Term, By) :-
+    typhon_durable:next_number(N),
     changes_putting(Kind, Key, N, Term, Change),
     (   By == frame
     ->  changes_must_fit(Change)
@@ -333,7 +332,7 @@ act(_, _, _, _) :-
     !.
 act(Kind, N, Key, Term) :-
     unit_of_work(( durable_drop(Kind, Key, N),
-                   ignore(typhon_durable_changes:act(Kind, Key, Term)) )).
+                   ignore(typhon_durable:act(Kind, Key, Term)) )).
 
 :- durable(letter, Id, N, Term, act_again(letter, N, Id, Term)).
 :- durable(logged, Host, N, Term, act_again(logged, N, Host, Term)).

@@ -7,9 +7,8 @@
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../../kernel/base/durable', [durable/5, durable_assertz/1]).
-:- use_module('../../kernel/base/durable_changes',
-              [durable_drop/3, unit_of_work/1]).
+:- use_module('../../kernel/base/durable',
+              [durable/5, durable_assertz/1, durable_drop/3, unit_of_work/1]).
 :- use_module('../../kernel/base/error_text',
               [is_abort/1, print_error/2]).
 :- use_module('../../kernel/wire',

@@ -9,7 +9,7 @@
 :- use_module(library(error), [domain_error/2, must_be/2, permission_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2]).
-:- use_module('../../kernel/base/durable_changes', [sync_changes/0]).
+:- use_module('../../kernel/base/durable', [sync_changes/0]).
 :- use_module('../../kernel/base/options',
               [check_name/2, check_option/2, check_options/2]).
 :- use_module('../../kernel/wire', [endpoint_reply/2]).

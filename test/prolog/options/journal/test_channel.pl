@@ -330,7 +330,7 @@ full :-
     pages(1),
     numlist(1, 20000, Long),
     remote(driver, leave(Long)),
-    wait_until(typhon_durable_changes:commit_error(_), 20).
+    wait_until(typhon_durable:commit_error(_), 20).
 
 test(answer_waits_while_the_journal_is_full, Line == "answered") :-
     no_leaks(with_tmp_dir(Dir,

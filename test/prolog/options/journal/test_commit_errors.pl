@@ -157,7 +157,7 @@ sent(Id, Message) :-
 
 fails_if_due :-
     (   failing(0, _)
-    ->  typhon_durable_changes:commit_error(_)
+    ->  typhon_durable:commit_error(_)
     ;   true
     ).
 

@@ -241,8 +241,8 @@ test(program_is_recorded_after_a_failed_unit_of_work) :-
           agent_create(P, First, []),
           typhon_agents:agent(First, _, _, Hash, _),
           retractall(typhon_journaled_agents:code_noted(Hash)),
-          typhon_durable_changes:durable_drop(code, Hash, 0),
-          \+ typhon_durable_changes:unit_of_work(
+          typhon_durable:durable_drop(code, Hash, 0),
+          \+ typhon_durable:unit_of_work(
                  ( typhon_journaled_agents:note_code(Hash), fail )),
           agent_create(P, Id, []) ),
         ( agent_property(Id, state(resident)) )).
@@ -390,7 +390,7 @@ about_to_say((prolog:debug_print_hook(_, _, _:[to, _, request(_, _), _]) :-
                   assertz(user:is_about_to),
                   thread_get_message(visitor_is_here))).
 about_to_say(prolog:debug_print_hook(_, _, _)).
-about_to_say((typhon_durable_changes:reached(before_commit) :-
+about_to_say((typhon_durable:reached(before_commit) :-
                   user:nothing_is_committed,
                   thread_self(Me),
                   thread_get_message(Me, never))).
@@ -441,7 +441,7 @@ test(change_of_a_failed_unit_of_work_is_kept) :-
           agent_send(A, one),
           wait_until(rests_after(A, 1), 5),
           typhon_agents:agent(A, _, Module, _, _),
-          \+ typhon_durable_changes:unit_of_work(
+          \+ typhon_durable:unit_of_work(
                  ( assertz(Module:item(new, change)),
                    typhon_agents:agent_note(A, resident, []),
                    fail )),

@@ -59,7 +59,7 @@ tourist(Agent, Hosts) :-
 
 dies(Peer, Point) :-
     peer_do(Peer, ( current_prolog_flag(pid, Pid),
-                    assertz((typhon_durable_changes:reached(Point) :-
+                    assertz((typhon_durable:reached(Point) :-
                                  process:process_kill(Pid, kill),
                                  thread_get_message(never))) )).
 

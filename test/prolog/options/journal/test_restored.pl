@@ -15,8 +15,7 @@
 :- use_module(library(prolog_wrap), [unwrap_predicate/2, wrap_predicate/4]).
 :- use_module(library(random), [random_between/3, random_member/2]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/kernel/base/durable), [durable/5, durable_dump/4]).
-:- use_module(library(typhon/kernel/base/durable_changes)).
+:- use_module(library(typhon/kernel/base/durable)).
 :- use_module(library(typhon/kernel/wire),
               [endpoint_address/1, endpoint_process/1]).
 
@@ -303,9 +302,9 @@ changed(put(Key, Value), Values0, Values) :-
 
 :- dynamic sent/2.
 
-:- multifile typhon_durable_changes:committed/1.
+:- multifile typhon_durable:committed/1.
 
-typhon_durable_changes:committed(Items) :-
+typhon_durable:committed(Items) :-
     Items = [restored(_)|_],
     forall(member(Item, Items),
            ( values(Values), assertz(test_restored:sent(Item, Values)) )).

@@ -7,7 +7,7 @@
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/base/durable),
               [durable/5, durable_assertz/1]).
-:- use_module(library(typhon/kernel/base/durable_changes),
+:- use_module(library(typhon/kernel/base/durable),
               [durable_close/0, durable_closed/0, sync_changes/0,
                unit_of_work/1]).
 
@@ -32,9 +32,9 @@ in_thread(Goal, Thread) :-
 %   Commits take some time while slow/1 holds.
 
 :- dynamic slow/1.
-:- multifile typhon_durable_changes:reached/1.
+:- multifile typhon_durable:reached/1.
 
-typhon_durable_changes:reached(in_commit) :-
+typhon_durable:reached(in_commit) :-
     plunit_stop:slow(Seconds),
     sleep(Seconds),
     fail.
@@ -213,13 +213,13 @@ all_came(Keeper, Sent) :-
 
 stop_does(Step) :-
     member(Step,
-           [ typhon_durable_changes:durable_close,
+           [ typhon_durable:durable_close,
              typhon_hosting:evacuate(_, _), typhon_links:host_unlink(_, _),
              typhon_events:event(_, _, _, _), typhon_events:events_forget(_),
              typhon_clocks:clock_clear(_), typhon_place:place_destroy(_),
              typhon_endpoint:endpoint_stop, typhon_time:time_stop,
              typhon_connection_manager:manager_end,
-             typhon_durable_changes:durable_end, typhon_code:code_clear ]).
+             typhon_durable:durable_end, typhon_code:code_clear ]).
 
 test(host_starts_again_whatever_step_of_its_stop_raises,
      [forall(stop_does(Step))]) :-

@@ -7,7 +7,7 @@
 :- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(readutil), [read_file_to_codes/3]).
-:- use_module(library(typhon/kernel/base/durable_changes)).
+:- use_module(library(typhon/kernel/base/durable)).
 :- use_module(library(typhon/kernel/base/on_demand), [on_demand_load/2]).
 
 :- needs([journal]).
