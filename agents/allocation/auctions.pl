@@ -133,7 +133,7 @@ slack(_, Options, Slack) :-
     !.
 slack([Host|_], _, Slack) :-
     host_name(Host, Name),
-    remote(Host, typhon_clocks:clock(Name, _, Rate)),
+    remote(Host, typhon_time:clock(Name, _, Rate)),
     !,
     Slack is Rate/2.
 slack(_, _, 0.5).

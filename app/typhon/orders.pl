@@ -22,7 +22,7 @@ order/3 has one clause for each command, and fails if the answer is negative.
 :- use_module('../../prolog/typhon/kernel/agent/identity', [agent_name/3]).
 :- use_module('../../prolog/typhon/kernel/base/text',
               [format_shown/2, lines_shown/2]).
-:- use_module('../../prolog/typhon/kernel/host/host_names', [address_parts/3]).
+:- use_module('../../prolog/typhon/kernel/host/hosts', [address_parts/3]).
 :- use_module('../../prolog/typhon/tools/inventory', [inventory/4]).
 
 %!  order(+Command, +Arguments, +Options) is semidet.

@@ -5,7 +5,7 @@
 :- use_module(library(lists), [member/2, nth0/3, nth1/3]).
 :- use_module(library(option), [option/3]).
 :- use_module('../../prolog/typhon', [log_events/2]).
-:- use_module('../../prolog/typhon/kernel/base/output_files', [output_file/2]).
+:- use_module('../../prolog/typhon/kernel/base/private', [output_file/2]).
 :- use_module('../../prolog/typhon/tools/event_text', [short_name/2]).
 :- use_module(colours, [colours/3]).
 :- use_module(spacetime, [spacetime/2]).

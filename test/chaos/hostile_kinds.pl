@@ -424,7 +424,7 @@ without(Agent, Term, Text, News) :-
 without(_, _, Text, Text).
 
 endpoint(Address, Endpoint) :-
-    typhon_host_names:address_parts(Address, _, Endpoint).
+    typhon_hosts:address_parts(Address, _, Endpoint).
 
 state_there(Agent, [Links,Agents,Clauses,Facts]) :-
     peer_do(victim, findall(F, remote(victim, sense(F)), Facts)),

@@ -92,7 +92,7 @@ agent_state_here(Id, State) :-
     agent_property(Id, state(State)).
 
 connected_to(Host) :-
-    typhon_host_names:address_parts(Host, _, Endpoint),
+    typhon_hosts:address_parts(Host, _, Endpoint),
     typhon_wire:endpoint_peer(Endpoint, state(up)).
 
 %   A thread is connecting, or a connection is neither assigned to a session

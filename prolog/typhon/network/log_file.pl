@@ -6,8 +6,7 @@
             log_goes_on/2               % +File, +Size
           ]).
 :- use_module(library(error), [existence_error/2]).
-:- use_module('../kernel/base/output_files', [output_file/2]).
-:- use_module('../kernel/base/private', [private_open/4]).
+:- use_module('../kernel/base/private', [output_file/2, private_open/4]).
 :- autoload(library(readutil), [read_line_to_string/2]).
 
 /** <module> The file of a log

@@ -9,9 +9,8 @@
 :- autoload(library(readutil), [read_file_to_string/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(sha), [hash_atom/2, sha_hash/3]).
-:- use_module('../kernel/base/private', [private_write/2]).
+:- use_module('../kernel/base/private', [output_file/2, private_write/2]).
 :- use_module('../kernel/base/monotonic', [monotonic_time/1]).
-:- use_module('../kernel/base/output_files', [output_file/2]).
 :- use_module('../kernel/base/text', [term_text/2, text_term/2]).
 :- use_module('../kernel/host',
               [context_now/2, time_due/3, time_kind/1, time_now/1]).

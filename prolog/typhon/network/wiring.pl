@@ -37,14 +37,14 @@ of module `restarts`.  A mutex excludes changes while wire_again/5 makes links.
 :- meta_predicate wire_resting_own(+, 0).
 
 :- multifile
-    typhon_host_names:elsewhere/2,
+    typhon_hosts:elsewhere/2,
     typhon_names:known/2.
 
 :- dynamic
     host/5,                     % Network, I, Name, P, Address
     changed/4.                  % Network, I, J, Change: the last of this pair
 
-typhon_host_names:elsewhere(Name, Address) :-
+typhon_hosts:elsewhere(Name, Address) :-
     host(_, _, Name, _, Address).
 
 typhon_names:known(host, Address) :-

@@ -4,8 +4,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(terms), [mapargs/3]).
 :- use_module('../kernel/base/error_text', [abridged/3, print_error/2]).
-:- use_module('../kernel/base/output_files', [output_file/2]).
-:- use_module('../kernel/base/private', [private_open/4]).
+:- use_module('../kernel/base/private', [output_file/2, private_open/4]).
 :- use_module('../kernel/base/text', [write_portable/3]).
 :- use_module('../kernel/base/trees', [is_tree/2]).
 :- use_module('../kernel/wire', [endpoint_proof/2]).
@@ -32,9 +31,9 @@ With the option audit(File) each security event appends a line to File,
     typhon_host_parts:check/1,
     typhon_host_parts:part/4,
     typhon_options:declared/4,
-    typhon_output_files:begins/2.
+    typhon_private:begins/2.
 
-typhon_output_files:begins(audit, "audit(").
+typhon_private:begins(audit, "audit(").
 
 typhon_options:declared(host_option, peer(Rules), list, Rules).
 typhon_options:declared(host_option, audit(File), text, File).

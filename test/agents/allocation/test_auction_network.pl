@@ -399,7 +399,7 @@ test(the_host_of_an_auctioneer_stops) :-
 test(a_process_is_killed) :-
     patient(Patient),
     auctions(anta, mesh(3), [auction(Patient)], [2, 3], Hosts, File,
-        ( typhon_clocks:clock(n1, Epoch, Rate),
+        ( typhon_time:clock(n1, Epoch, Rate),
           typhon_hosts:host_option(n1, log(Log)),
           with_peers([gone-[host([clock(Epoch, Rate), log(Log)])]],
                      killed(anta, Hosts, File)) )).

@@ -393,7 +393,7 @@ test(unlink_from_an_unreachable_host, [ forall(member(Way, [to,from])),
                                         true(L == []) ]) :-
     address(alpha, H),
     Gone = 'x@127.0.0.1:1',
-    typhon_links:host_link(alpha, Gone, same),
+    typhon_hosts:host_link(alpha, Gone, same),
     ( Way == to -> A-B = H-Gone ; A-B = Gone-H ),
     catch(unlink(A, B), error(host_unreachable(Gone), _), true),
     host_property(H, neighbours(L)).

@@ -2,11 +2,9 @@
           [ private_folder/2,           % +Prefix, -Folder
             private_new/2,              % +File, +Text
             private_write/2,            % +File, :Writer
-            private_open/4              % +File, +Mode, -Stream, +Options
+            private_open/4,             % +File, +Mode, -Stream, +Options
+            output_file/2               % +Kind, +File
           ]).
-:- autoload(library(filesex),
-              [ chmod/2, delete_directory_and_contents/1,
-                directory_file_path/3, link_file/3 ]).
 
 /** <module> Folders and files of this user alone
 
@@ -15,8 +13,23 @@ in a directory for all users another one may have made that, or a link.  A file
 has mode 600.  open/4 follows the umask, so a new file is made in such a folder
 beside its place.
 
+A file that a command reads, or that holds another thing than the output, is kept:
+arguments the wrong way round destroy nothing.
+
 *Threading*: any thread.
 */
+
+:- use_module(library(error), [permission_error/3]).
+:- autoload(library(filesex),
+            [ chmod/2, delete_directory_and_contents/1, directory_file_path/3,
+              link_file/3 ]).
+
+:- meta_predicate
+    private_write(+, 1),
+    beside(+, 1, 1).
+
+:- multifile
+    begins/2.                           % Kind, Text: files of Kind begin with Text
 
 %!  private_folder(+Prefix, -Folder:atom) is det.
 %
@@ -50,8 +63,6 @@ linked(File, New) :-
     ;   rename_file(New, File)          % a file system without hard links
     ).
 
-:- meta_predicate private_write(+, 1).
-
 %!  private_write(+File, :Writer) is det.
 %
 %   Replace File, or make it, when call(Writer, Path) has written Path.  If that
@@ -62,8 +73,6 @@ private_write(File, Writer) :-
 
 replaced(File, New) :-
     rename_file(New, File).
-
-:- meta_predicate beside(+, 1, 1).
 
 beside(File, Writer, Move) :-
     setup_call_cleanup(
@@ -112,3 +121,37 @@ private_open(File, Mode, Stream, Options) :-
               ( close(Stream), throw(error(Formal, Context)) ))
     ;   true
     ).
+
+                /*******************************
+                *       FILES OF OUTPUT        *
+                *******************************/
+
+begins(log, "event(").
+begins(page, "<!doctype html>").
+begins(picture, "<svg").
+begins(saved_network, "typhon_saved(").
+begins(restore_point, "restore_point(").
+
+%!  output_file(+Kind, +File) is det.
+%
+%   An output of Kind may be written to File: there is no such file, or it is
+%   empty, or begins as an output of that Kind.  Devices and pipes may be written.
+%
+%   @error permission_error(overwrite, Kind, File)
+
+output_file(Kind, File) :-
+    exists_file(File),
+    \+ size_file(File, 0),
+    begins(Kind, Text),
+    \+ starts_with(File, Text),
+    !,
+    permission_error(overwrite, Kind, File).
+output_file(_, _).
+
+starts_with(File, Text) :-
+    string_length(Text, Length),
+    access_file(File, read),
+    setup_call_cleanup(
+        open(File, read, In, [type(binary)]),
+        read_string(In, Length, Text),
+        close(In)).

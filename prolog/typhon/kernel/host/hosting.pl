@@ -24,14 +24,14 @@
               [ durable_close/0, durable_closed/0, durable_end/0,
                 sync_changes/0 ]).
 :- use_module('../wire', [endpoint_address/1]).
-:- use_module(clocks, [clock_clear/1, clock_set/3]).
-:- use_module(time, [time_default/1, time_let_go/1, time_wanted/2]).
+:- use_module(time,
+              [ clock_clear/1, clock_set/3, time_default/1, time_let_go/1,
+                time_wanted/2 ]).
 :- use_module(events, [event/4, events_forget/1]).
 :- use_module(host_parts, [parts_load/1]).
 :- use_module(hosts,
-              [host/3, host_add/4, host_close/1, host_remove/1]).
-:- use_module(host_names, [address_parts/3, host_resolve/2]).
-:- use_module(links, [host_unlink/2]).
+              [ address_parts/3, host/3, host_add/4, host_close/1,
+                host_remove/1, host_resolve/2, host_unlink/2 ]).
 :- use_module(place, [place_create/4, place_destroy/1]).
 :- use_module(runtime, [runtime_acquire/3, runtime_release/1]).
 

@@ -18,39 +18,66 @@
             host_plain_leaves/2,        % +Name, -Since
             host_came/2,                % +Name-Plain, +Since
             host_left/2,                % +Name, +Since
-            host_passes/4               % +From, +Name-To, +Since, -Seconds
+            host_passes/4,              % +From, +Name-To, +Since, -Seconds
+            host_neighbours/2,          % +Name, -Addresses
+            host_link/3,                % +Name, +Address, +Cost
+            host_unlink/2,              % ?Name, ?Address
+            host_link_cost/3,           % +Name, +Address, -Cost
+            host_resolve/2,             % +Host, -Where
+            host_address/2,             % +Host, -Address
+            address_parts/3             % ?Address, ?Name, ?Endpoint
           ]).
-:- use_module(library(apply), [maplist/3]).
-:- use_module(library(lists), [member/2]).
-:- use_module('../base/monotonic', [monotonic_time/1]).
-:- use_module('../base/durable',
-              [durable/6, durable_drop/3, durable_on/0, durable_put/4]).
-:- use_module('../base/bounds', [memory_short/1]).
-:- use_module(clocks, [clock/3, host_time/2]).
-:- use_module(time, [time_now/1]).
-:- use_module(links, [host_unlink/2]).
-:- use_module(host_parts, [parts/3, parts_compile/1, parts_forget/1]).
 
-/** <module> Hosts of this process
+/** <module> Hosts of this process, their links, and names of hosts
 
-The records of hosts: name, address, place, options, and their counts: the
+The record of a host: name, address, place, options, and their counts: the
 number of agents on them, their load, and how long hops into and out of them
 take, in host seconds.
 
-*Threading*: any thread.  The counts are flags, which many threads change without
-leaving garbage, under one mutex: flag/3 would lock for each of them.
+A link is recorded in one direction; the other host records the other.
+
+host_resolve/2 maps the name or address that a caller gives to the location of
+the host. A bare name is looked up first in this process, and then in the other
+processes of the networks that this process started.
+
+*Threading*: any thread; a mutex for changes of links.  The counts are flags,
+which many threads change without leaving garbage, under one mutex: flag/3
+would lock for each of them.
 */
 
-:- set_prolog_flag(optimise, true).     % arithmetic without calls
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(error), [existence_error/2, must_be/2]).
+:- use_module(library(lists), [member/2]).
+:- use_module('../base/bounds', [memory_short/1]).
+:- use_module('../base/durable',
+              [durable/6, durable_drop/3, durable_on/0, durable_put/4]).
+:- use_module('../base/monotonic', [monotonic_time/1]).
+:- use_module('../base/text', [is_printable/1]).
+:- use_module('../wire',
+              [endpoint_address/1, endpoint_parts/3, must_be_endpoint/1]).
+:- use_module(events, [event/4]).
+:- use_module(host_parts, [parts/3, parts_compile/1, parts_forget/1]).
+:- use_module(time, [clock/3, host_time/2, time_now/1]).
 
 :- dynamic
-    host/3,                     % Name, Address, Place
-    host_option/2,              % Name, Option
-    admits/4,                   % Name, Tokens, Capacity, Flag: while
-                                % it admits agents
-    counts/4,                   % Name, Load, In, Out: a flag, and twice
-                                % flags(Count, Min, Sum, Max) of hops
-    host_plain/2.               % Name, Plain
+    host/3,                             % Name, Address, Place
+    host_option/2,                      % Name, Option
+    admits/4,                           % Name, Tokens, Capacity, Flag: while
+                                        % it admits agents
+    counts/4,                           % Name, Load, In, Out: a flag, and twice
+                                        % flags(Count, Min, Sum, Max) of hops
+    host_plain/2,                       % Name, Plain
+    neighbour/2,                        % Name, Address
+    cost/3.                             % Name, Address, Cost: of a link, if not 1
+
+:- multifile
+    elsewhere/2,                        % ?Name, -Address: a host of a network that
+                                        % this process started
+    typhon_names:known/2,
+    prolog:error_message//1,
+    error:has_type/2.
+
+:- set_prolog_flag(optimise, true).     % arithmetic without calls
 
 %!  host(?Name, ?Address, ?Place) is nondet.
 %
@@ -417,3 +444,204 @@ host_hop_times(Name, Direction, stats(Count, Min, Mean, Max)) :-
         get_flag(SumFlag, Sum),
         Mean is Sum/Count
     ).
+
+                /*******************************
+                *            LINKS             *
+                *******************************/
+
+%!  host_link(+Name, +Address, +Cost) is det.
+%
+%   Make one direction of a link; does nothing if it exists.  Cost is a number,
+%   or `same`: the present cost, 1 for a new link.  Listeners get changes in
+%   the order in which they were made.
+
+host_link(Name, Address, Cost) :-
+    with_mutex(typhon_links,
+               ( link(Name, Address, Cost, Was),
+                 (   Was == new
+                 ->  event(links, Name, none, link(Address))
+                 ;   true
+                 ) )).
+
+link(Name, Address, Cost, Was) :-
+    (   neighbour(Name, Address)
+    ->  Was = known
+    ;   Was = new,
+        assertz(neighbour(Name, Address))
+    ),
+    set_cost(Cost, Name, Address),
+    link_item(Key, Name, Address, Now),
+    durable_put(link, Key, 0, link(Name, Address, Now)).
+
+:- durable(link, Key, 0, link(Name, Address, Cost),
+           link_item(Key, Name, Address, Cost),
+           link_restore(Name, Address, Cost)).
+
+link_item(Key, Name, Address, Cost) :-
+    neighbour(Name, Address),
+    host_link_cost(Name, Address, Cost),
+    link_key(Name, Address, Key).
+
+link_key(Name, Address, Key) :-
+    atomic_list_concat([Name, Address], ' ', Key).
+
+%   This reports no event, because the link existed before.
+
+link_restore(Name, Address, Cost) :-
+    with_mutex(typhon_links, link(Name, Address, Cost, _)).
+
+%   A concurrent caller finds the old cost or the new one.
+
+set_cost(same, _, _) :-
+    !.
+set_cost(Cost, Name, Address) :-
+    cost(Name, Address, _),
+    !,
+    assertz(cost(Name, Address, Cost)),
+    once(retract(cost(Name, Address, _))).
+set_cost(Cost, Name, Address) :-
+    assertz(cost(Name, Address, Cost)).
+
+%!  host_unlink(?Name, ?Address) is det.
+%
+%   Remove one direction of links; does nothing if there is none.
+
+host_unlink(Name, Address) :-
+    with_mutex(typhon_links, unlink(Name, Address)).
+
+unlink(Name, Address) :-
+    findall(Name-Address, neighbour(Name, Address), Links),
+    forall(( member(From-To, Links), link_key(From, To, Key) ),
+           durable_drop(link, Key, 0)),
+    retractall(neighbour(Name, Address)),
+    retractall(cost(Name, Address, _)),
+    forall(member(From-To, Links), event(links, From, none, unlink(To))).
+
+%!  host_link_cost(+Name, +Address, -Cost) is semidet.
+%
+%   Fails if there is no such link.
+
+host_link_cost(Name, Address, Cost) :-
+    neighbour(Name, Address),
+    !,
+    (   cost(Name, Address, Cost0)
+    ->  Cost = Cost0
+    ;   Cost = 1
+    ).
+
+%   host_linked(?Address): A host of this process is linked with Address.
+
+host_linked(Address) :-
+    neighbour(_, Address).
+
+%!  host_neighbours(+Name, -Addresses:list(atom)) is det.
+
+host_neighbours(Name, Addresses) :-
+    findall(Address, neighbour(Name, Address), Addresses0),
+    once_each(Addresses0, Addresses).
+
+%   While other threads make links, 9.0.4 may return one twice in a row.
+
+once_each([A,B|Rest], Set) :-
+    A == B,
+    !,
+    once_each([B|Rest], Set).
+once_each([A|Rest], [A|Set]) :-
+    once_each(Rest, Set).
+once_each([], []).
+
+                /*******************************
+                *            NAMES             *
+                *******************************/
+
+%   Completion proposes the hosts of other processes by their addresses.
+
+typhon_names:known(host, Name) :-
+    host(Name, _, _).
+typhon_names:known(host, Address) :-
+    host_linked(Address),
+    \+ host(_, Address, _).
+
+%!  address_parts(?Address, ?Name, ?Endpoint) is semidet.
+%
+%   Address is Name@Endpoint, where Endpoint is 'Interface:Port'.
+
+address_parts(Address, Name, Endpoint) :-
+    atom(Address),
+    !,
+    atomic_list_concat([Name,Endpoint], '@', Address),
+    Name \== '',
+    Endpoint \== ''.
+address_parts(Address, Name, Endpoint) :-
+    atomic_list_concat([Name,Endpoint], '@', Address).
+
+error:has_type(host_address, Address) :-
+    atom(Address),
+    is_address(Address, _, Endpoint),
+    endpoint_parts(Endpoint, _, _).
+
+prolog:error_message(type_error(host_address, Address)) -->
+    [ '~p is no address NAME@INTERFACE:PORT, with a name or an IPv4 \c
+       address (IPv6 addresses are not supported)'-[Address] ].
+
+is_address(Address, Name, Endpoint) :-
+    address_parts(Address, Name, Endpoint),
+    sub_atom(Endpoint, _, _, _, :),
+    is_printable(Address),
+    !.
+
+%!  host_resolve(+Host, -Where) is det.
+%
+%   Where is local(Name) or remote(Address, Name, Endpoint).  Host is an
+%   address, the name of a host of this process, or a name that only one host
+%   of the networks that this process started has.
+%
+%   @error existence_error(host, Host)
+%   @error domain_error(endpoint_address, Endpoint) of an address
+%   @error ambiguous_host(Name, Addresses)
+
+host_resolve(Host, _) :-
+    \+ atom(Host),
+    !,
+    must_be(atom, Host).
+host_resolve(Host, local(Host)) :-
+    host(Host, _, _),
+    !.
+host_resolve(Host, local(Name)) :-
+    host(Name, Host, _),
+    !.
+host_resolve(Host, remote(Host, Name, Endpoint)) :-
+    is_address(Host, Name, Endpoint),
+    !,
+    must_be_endpoint(Endpoint).
+host_resolve(Name, remote(Address, Name, Endpoint)) :-
+    findall(Found, in_other_process(Name, Found), Found0),
+    sort(Found0, Addresses),
+    the_only(Addresses, Name, Address),
+    address_parts(Address, _, Endpoint).
+
+%   elsewhere/2 may still list a host of this process that is stopping.
+
+in_other_process(Name, Address) :-
+    elsewhere(Name, Address),
+    address_parts(Address, _, Endpoint),
+    \+ endpoint_address(Endpoint).
+
+the_only([Address], _, Address) :-
+    !.
+the_only([], Name, _) :-
+    existence_error(host, Name).
+the_only([Address|Addresses], Name, _) :-
+    throw(error(ambiguous_host(Name, [Address|Addresses]), _)).
+
+%!  host_address(+Host, -Address) is det.
+%
+%   The address of Host, as in host_resolve/2.
+
+host_address(Host, Address) :-
+    host_resolve(Host, Where),
+    where_address(Where, Address).
+
+where_address(local(Name), Address) :-
+    host(Name, Address, _).
+where_address(remote(Address, _, _), Address).

@@ -11,8 +11,7 @@
               [endpoint_reply/2, mobile_term/1]).
 :- use_module(runtime, [process_ask/6]).
 :- use_module(turns, [in_context/2]).
-:- use_module(host_names, [host_resolve/2]).
-:- use_module(hosts, [host/3, host_option/2]).
+:- use_module(hosts, [host/3, host_option/2, host_resolve/2]).
 :- use_module(scheduler, [scheduler_call/1]).
 
 /** <module> Goals that other processes run on a host

@@ -23,12 +23,13 @@
             time_due/3,                 % +Agent, +Token, -Stamp
             time_again/2,               % +State, -Agents
             alarm_set/3,                % +Stamp, +Agent, +Token
-            alarm_in/3                  % +Seconds, +Agent, +Token
+            alarm_in/3,                 % +Seconds, +Agent, +Token
+            clock_set/3,                % +Host, +Epoch, +Rate
+            clock_clear/1,              % +Host
+            clock/3,                    % ?Host, ?Epoch, ?Rate
+            host_time/2,                % +Host, -Seconds
+            real_time/3                 % +Host, +Seconds, -Stamp
           ]).
-:- use_module(library(error), [must_be/2]).
-:- use_module(library(lists), [member/2]).
-:- use_module('../base/monotonic', [monotonic_time/1, wait_before/2]).
-:- use_module('../base/options', [options_load/2]).
 
 /** <module> The runtime: the threads that do the work, and time
 
@@ -41,44 +42,52 @@ seconds, of that time or of the clock of the runtime.
 A runtime defines the hooks below for its Kind.  It must define those of the
 first group; each of the others describes a property that a runtime may lack.
 
+A host has a clock: host seconds are (real time - Epoch) * Rate.  The default,
+epoch 0 and rate 1, is the time of day, but for what the clock of the computer
+was set by.  Hosts of one network share epoch and rate, so that agents and
+experiments are written in host seconds and run as fast as Rate says.
+
 *Threading*: any thread; callers serialize time_start/1 and time_stop/0.
 */
+
+:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(library(lists), [member/2]).
+:- use_module('../base/monotonic', [monotonic_time/1, wait_before/2]).
+:- use_module('../base/options', [options_load/2]).
 
 :- meta_predicate
     time_here(+, 0),
     time_signal(0).
 
-:- multifile
-    starts/1,                   % Kind
-    stops/1,                    % Kind
-    work/2,                     % Kind, Work: see time_work/1
-    alone/1,                    % Kind: see time_alone/0
-    alarm/4,                    % Kind, Stamp, Agent, Token: see alarm_set/3
-    wait/4,                     % Kind, Queue, Message, Stamp: see time_wait/3
-    signal/2,                   % Kind, Goal: see time_signal/1
-    hold/2,                     % Kind, Seconds: see time_hold/1
-    let_go/2.                   % Kind, Agents: see time_let_go/1
-
-:- multifile
-    clock/2,                    % Kind, Now: call(Now, Stamp) is the time, if
-                                % not monotonic_time/1
-    wanted/2,                   % Option, Kind: see time_wanted/2
-    apart/2,                    % Kind, Address: see time_apart/2
-    repeats/2,                  % Kind, Mark: see time_repeats/2
-    here/3,                     % Kind, Agents, Turn: see time_here/2; needs
-                                % adopt/2 and leave/1
-    adopt/2,                    % Kind, Thread: see time_adopt/1
-    leave/1,                    % Kind: see time_leave/0
-    due/4,                      % Kind, Agent, Token, Stamp: see time_due/3
-    seed/2,                     % Kind, Seed: see time_seed/1
-    state/2,                    % Kind, State: see time_state/1
-    again/3.                    % Kind, State, Agents: see time_again/2
-
-:- dynamic state/2.
-
 :- dynamic
-    time_kind/1,                % Kind: while it runs
-    own_clock/1.                % Now, as in clock/2: while it runs
+    state/2,
+    time_kind/1,                        % Kind: while it runs
+    own_clock/1,                        % Now, as in clock/2: while it runs
+    clock/3.                            % Host, Epoch, Rate
+
+:- multifile
+    starts/1,                           % Kind
+    stops/1,                            % Kind
+    work/2,                             % Kind, Work: see time_work/1
+    alone/1,                            % Kind: see time_alone/0
+    alarm/4,                            % Kind, Stamp, Agent, Token: see alarm_set/3
+    wait/4,                             % Kind, Queue, Message, Stamp: see time_wait/3
+    signal/2,                           % Kind, Goal: see time_signal/1
+    hold/2,                             % Kind, Seconds: see time_hold/1
+    let_go/2,                           % Kind, Agents: see time_let_go/1
+    clock/2,                            % Kind, Now: call(Now, Stamp) is the time, if
+                                        % not monotonic_time/1
+    wanted/2,                           % Option, Kind: see time_wanted/2
+    apart/2,                            % Kind, Address: see time_apart/2
+    repeats/2,                          % Kind, Mark: see time_repeats/2
+    here/3,                             % Kind, Agents, Turn: see time_here/2; needs
+                                        % adopt/2 and leave/1
+    adopt/2,                            % Kind, Thread: see time_adopt/1
+    leave/1,                            % Kind: see time_leave/0
+    due/4,                              % Kind, Agent, Token, Stamp: see time_due/3
+    seed/2,                             % Kind, Seed: see time_seed/1
+    state/2,                            % Kind, State: see time_state/1
+    again/3.                            % Kind, State, Agents: see time_again/2
 
 %!  time_kind(?Kind) is semidet.
 %
@@ -351,3 +360,47 @@ time_again(State, Agents) :-
     ->  Agents = Agents0
     ;   Agents = []
     ).
+
+                /*******************************
+                *            CLOCKS            *
+                *******************************/
+
+%!  clock(?Host, ?Epoch, ?Rate) is nondet.
+%
+%   The clocks that clock_set/3 has set.
+
+%!  clock_set(+Host, +Epoch, +Rate) is det.
+%
+%   Epoch is a time stamp in real seconds, Rate a positive number.
+
+clock_set(Host, Epoch, Rate) :-
+    must_be(number, Epoch),
+    must_be(number, Rate),
+    (   Rate > 0
+    ->  true
+    ;   domain_error(clock_rate, Rate)
+    ),
+    clock_clear(Host),
+    assertz(clock(Host, Epoch, Rate)).
+
+%!  clock_clear(+Host) is det.
+
+clock_clear(Host) :-
+    retractall(clock(Host, _, _)).
+
+%!  host_time(+Host, -Seconds:float) is semidet.
+%
+%   The clock of Host shows Seconds. Fails if Host has no clock.
+
+host_time(Host, Seconds) :-
+    clock(Host, Epoch, Rate),
+    time_now(Now),
+    Seconds is (Now-Epoch)*Rate.
+
+%!  real_time(+Host, +Seconds, -Stamp:float) is semidet.
+%
+%   Stamp is the real time at which the clock of Host shows Seconds.
+
+real_time(Host, Seconds, Stamp) :-
+    clock(Host, Epoch, Rate),
+    Stamp is Epoch+Seconds/Rate.

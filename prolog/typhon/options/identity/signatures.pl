@@ -26,7 +26,7 @@ put into them.
 :- use_module(library(lists), [member/2]).
 :- autoload(library(terms), [mapsubterms/3]).
 :- autoload('../keys', [keys_sign/3, keys_verify/4]).
-:- use_module('../../kernel/base/output_files', [output_file/2]).
+:- use_module('../../kernel/base/private', [output_file/2]).
 :- use_module('../../kernel/program',
               [ clause_parts/3, payload_file/1, payload_load/2,
                 program_file/2, program_hash/2, program_read/7 ]).
@@ -95,9 +95,9 @@ signature_read(File, Hash) :-
     signature_keep(Hash, Signature).
 signature_read(_, _).
 
-:- multifile typhon_output_files:begins/2.
+:- multifile typhon_private:begins/2.
 
-typhon_output_files:begins(signature, "signed(").
+typhon_private:begins(signature, "signed(").
 
 %!  signature_make(+File, +Hash, +Keys) is det.
 %

@@ -12,19 +12,19 @@ A fact in a tuple space has a number, the key of its item.  Other agents find
 the facts that an agent leaves when the agent stops; the facts that it takes are
 gone at once.
 
-*Threading*: as typhon_tuples.
+*Threading*: as typhon_place.
 */
 
 :- multifile
-    typhon_tuples:due/3,
-    typhon_tuples:due_taken/3,
-    typhon_tuples:leaves/3,
-    typhon_tuples:taken/2.
+    typhon_place:due/3,
+    typhon_place:due_taken/3,
+    typhon_place:leaves/3,
+    typhon_place:taken/2.
 
 :- dynamic due/5.               % Place, N, Fact, By, Thread: Thread puts it
                                 % there when its turn is over
 
-typhon_tuples:leaves(Place, Fact, By) :-
+typhon_place:leaves(Place, Fact, By) :-
     place_host(Place, Host),
     durable_number(N),
     noted(By, Fact, Noted),
@@ -45,20 +45,20 @@ leave_due(Place, N) :-
                ;   true                 % the agent has taken it again
                )).
 
-typhon_tuples:due(Place, Fact, Whose) :-
+typhon_place:due(Place, Fact, Whose) :-
     (   Whose == mine
     ->  thread_self(Me)
     ;   true
     ),
     due(Place, _, Fact, _, Me).
 
-typhon_tuples:due_taken(Place, Fact, By) :-
+typhon_place:due_taken(Place, Fact, By) :-
     thread_self(Me),
     retract(due(Place, N, Fact, By, Me)),
     !,
-    typhon_tuples:taken(Place, N).
+    typhon_place:taken(Place, N).
 
-typhon_tuples:taken(Place, N) :-
+typhon_place:taken(Place, N) :-
     (   durable_on
     ->  place_host(Place, Host),
         deferred_drop(tuple, Host, N)

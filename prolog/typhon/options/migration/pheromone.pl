@@ -53,7 +53,7 @@ does not fit is dropped, and spreads no further.
     typhon_host_parts:ends/1,
     typhon_strategy:choose/6,
     typhon_strategy:strategy/1,
-    typhon_tuples:counted/2.
+    typhon_place:counted/2.
 
 :- setting(pheromones, positive_integer, 1000,
            "Pheromones that a host has at most").
@@ -216,7 +216,7 @@ store(Host, Place, Now, Pheromone) :-
 %   The tuples are counted, since agents can take them, and leave others like
 %   them.
 
-typhon_tuples:counted(pheromone(Host, Next), Change) :-
+typhon_place:counted(pheromone(Host, Next), Change) :-
     with_mutex(typhon_pheromone, count(Host, Next, Change)).
 
 count(Host, Next, Change) :-

@@ -25,7 +25,7 @@ for an agent; counts that agents share are changed under a mutex.
 
 :- multifile
     typhon_host_parts:part/4,
-    typhon_tuples:counted/2.
+    typhon_place:counted/2.
 
 :- dynamic
     spent/4,                    % Agent, What, Second, Count
@@ -297,7 +297,7 @@ by(Host, Agent, _, By) :-
     ;   By = none
     ).
 
-typhon_tuples:counted(by(Host, Agent, Owner), Change) :-
+typhon_place:counted(by(Host, Agent, Owner), Change) :-
     with_mutex(typhon_usage,
                ( add_tuples(Host, agent, Agent, Change),
                  add_tuples(Host, owner, Owner, Change),

@@ -6,8 +6,7 @@
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../../kernel/base/options', [check_options/2]).
-:- use_module('../../kernel/base/private', [private_open/4]).
-:- use_module('../../kernel/base/output_files', [output_file/2]).
+:- use_module('../../kernel/base/private', [output_file/2, private_open/4]).
 :- use_module('../../kernel/base/text', [write_portable/3]).
 :- use_module('../../kernel/program',
               [ code_receive/2, code_extras/2, code_sent/2, code_unwrapped/3,

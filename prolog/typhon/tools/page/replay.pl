@@ -12,7 +12,7 @@
 :- use_module(library(sgml), [xml_quote_cdata/3]).
 :- use_module(library(sha), [sha_hash/3]).
 :- use_module('../../kernel/base/json', [json_text/2]).
-:- use_module('../../kernel/base/output_files', [output_file/2]).
+:- use_module('../../kernel/base/private', [output_file/2]).
 :- use_module('../../network', [log_events/2]).
 :- use_module('../../tools', [own_event/1]).
 :- use_module(guard, [page_file/3]).

@@ -743,12 +743,12 @@ test(deadline_is_set_before_the_agent_rests,
        States == [running] ]) :-
     thread_self(Me),
     setup_call_cleanup(
-        wrap_predicate(typhon_clocks:real_time(_, _, _), seen, Until,
+        wrap_predicate(typhon_time:real_time(_, _, _), seen, Until,
                        test_host:asked_in(Me, Until)),
         with_hosts([alpha-[hop_time(uniform(60, 60))], beta],
                    ( create([(main :- Wait)], _),
                      thread_get_message(Me, asked_in(States), [timeout(30)]) )),
-        unwrap_predicate(typhon_clocks:real_time/3, seen)).
+        unwrap_predicate(typhon_time:real_time/3, seen)).
 test(stubborn_reader, O == disposed) :-
     setup_call_cleanup(
         ( tcp_socket(L), tcp_bind(L, localhost:P), tcp_listen(L, 5),

@@ -48,7 +48,7 @@ received(Agent, Heard) :-
 
 endpoint(Peer, Endpoint) :-
     peer_host(Peer, Host),
-    typhon_host_names:address_parts(Host, _, Endpoint).
+    typhon_hosts:address_parts(Host, _, Endpoint).
 
 %   Mallory makes the image of an agent of its own, and its birth certificate.
 
@@ -211,7 +211,7 @@ news_forged :-
     guest(Program),
     agent_create(Program, A),
     host_property(alpha, address(Alpha)),
-    typhon_host_names:address_parts(Alpha, _, Endpoint),
+    typhon_hosts:address_parts(Alpha, _, Endpoint),
     peer_host(mallory, Mallory),
     peer_do(mallory,
             ( typhon_wire:endpoint_post(Endpoint, whereabouts,

@@ -214,9 +214,9 @@ all_came(Keeper, Sent) :-
 stop_does(Step) :-
     member(Step,
            [ typhon_durable:durable_close,
-             typhon_hosting:evacuate(_, _), typhon_links:host_unlink(_, _),
+             typhon_hosting:evacuate(_, _), typhon_hosts:host_unlink(_, _),
              typhon_events:event(_, _, _, _), typhon_events:events_forget(_),
-             typhon_clocks:clock_clear(_), typhon_place:place_destroy(_),
+             typhon_time:clock_clear(_), typhon_place:place_destroy(_),
              typhon_endpoint:endpoint_stop, typhon_time:time_stop,
              typhon_connection_manager:manager_end,
              typhon_durable:durable_end, typhon_code:code_clear ]).

@@ -235,7 +235,7 @@ leaves_one(Agent, Result) :-
 
 tuples_change(Agent, Change) :-
     typhon_usage:by(h, Agent, _, By),
-    forall(typhon_tuples:counted(By, Change), true).
+    forall(typhon_place:counted(By, Change), true).
 
 :- begin_tests(quotas_of_amounts).
 
