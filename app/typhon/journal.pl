@@ -2,7 +2,7 @@
           [ journal_shown/2             % +Dir, +Options
           ]).
 :- use_module('../../prolog/typhon/kernel/agent/identity', [agent_name/3]).
-:- use_module('../../prolog/typhon/kernel/agent/life', [life_hops/2]).
+:- use_module('../../prolog/typhon/kernel/agent/agents', [life_hops/2]).
 :- use_module('../../prolog/typhon/kernel/base/names', [counted/3]).
 :- use_module('../../prolog/typhon/kernel/base/text', [format_shown/2]).
 :- use_module('../../prolog/typhon/options/journal/database', [journal_part/3]).

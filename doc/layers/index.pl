@@ -28,7 +28,7 @@ indexed(typhon_on_demand:joins/2, Seam, joins(Seam, What), What).
 indexed(typhon_questions:here/3, question, here(Question, _, _), Kind) :-
     callable(Question),
     functor(Question, Kind, _).
-indexed(typhon_life:carries/3, carries, carries(Name, _, _), Name).
+indexed(typhon_agents:carries/3, carries, carries(Name, _, _), Name).
 indexed(typhon_orders:carried_out/3, order, carried_out(Order, _, _), Kind) :-
     callable(Order),
     functor(Order, Kind, _).

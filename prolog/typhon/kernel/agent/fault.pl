@@ -18,8 +18,7 @@
 :- use_module('../base/on_demand', [on_demand_load/2]).
 :- use_module('../program', [fault/3]).
 :- use_module('../host', [host/3]).
-:- use_module(agents, [agent/5]).
-:- use_module(life, [life_hops/2]).
+:- use_module(agents, [agent/5, life_hops/2]).
 
 /** <module> Faults of agents
 

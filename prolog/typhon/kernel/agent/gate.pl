@@ -11,9 +11,8 @@
                 host_leave/1, host_load/2, parts/3, security_event/2,
                 security_event/3 ]).
 :- use_module(agent_module, [agent_program/3]).
-:- use_module(agents, [agent_on/2]).
+:- use_module(agents, [agent_on/2, life_tokens/2]).
 :- use_module(identity, [agent_home/2]).
-:- use_module(life, [life_tokens/2]).
 
 /** <module> Admission: which agents a host accepts
 

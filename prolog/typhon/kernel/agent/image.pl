@@ -21,13 +21,13 @@
 :- use_module('../program', [code_sent/2]).
 :- use_module('../wire', []).
 :- use_module('../host', [amended/5, event_subscribed/1, host/3, parts/3]).
-:- use_module(agents, [agent/5, agent_enter/3, agent_mail/2]).
+:- use_module(agents,
+              [ agent/5, agent_enter/3, agent_mail/2, is_life/1, life_clone/3,
+                life_hop/3, life_hops/2 ]).
 :- use_module(agent_module, [agent_build/5, agent_state/2]).
 :- use_module('../base/text', [is_printable/1]).
 :- use_module(identity, [agent_home/2, origin_inherited/3]).
 :- use_module(payloads, [no_result_facts/2]).
-:- use_module(life,
-              [is_life/1, life_clone/3, life_hop/3, life_hops/2]).
 
 /** <module> The image of an agent, which goes over the wire
 

@@ -16,12 +16,13 @@
 :- use_module(library(lists), [member/2, selectchk/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../host', [host_address/2, parts/3]).
-:- use_module(agents, [agent/5, agent_put_life/2]).
+:- use_module(agents,
+              [ agent/5, agent_put_life/2, life_payloads/2,
+                set_payloads_of_life/3 ]).
 :- use_module(identity, [with_agent/2]).
 :- use_module(agent_module,
               [ agent_add/2, agent_clauses/3, agent_code/2, agent_declare/2,
                 agent_variant/2 ]).
-:- use_module(life, [life_payloads/2, set_payloads_of_life/3]).
 
 /** <module> Payloads and results of agents
 

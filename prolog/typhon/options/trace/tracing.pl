@@ -39,10 +39,10 @@ tracers.
 */
 
 :- multifile
-    typhon_life:carries/3,
+    typhon_agents:carries/3,
     typhon_endpoint:requested/4,
     typhon_events:handle_event/4,
-    typhon_life:not_cloned/1,
+    typhon_agents:not_cloned/1,
     typhon_names:known/2,
     typhon_orders:carried_out/3,
     typhon_orders:noted/1.
@@ -106,17 +106,17 @@ own_endpoint(To) :-
 %   A traced agent has arrived in this process.  Its tracers may come from an
 %   untrusted peer, so they are checked.
 
-typhon_life:carries(trace, Id, trace(To, Kinds0)) :-
+typhon_agents:carries(trace, Id, trace(To, Kinds0)) :-
     atom(To),
     is_list(Kinds0),
     findall(Kind, ( trace_kind(Kind), memberchk(Kind, Kinds0) ), Kinds),
     events_subscribe([life, bad_ends|Kinds], Id, trace(To)).
-typhon_life:carries(step, _, step).     % checked by typhon_stepping
+typhon_agents:carries(step, _, step).     % checked by typhon_stepping
 
 %   A clone is not stepped: no caller knows its id, so no caller would let it
 %   continue.
 
-typhon_life:not_cloned(Extra) :-
+typhon_agents:not_cloned(Extra) :-
     Extra == step.
 
 %!  traced_goals(+Life) is semidet.

@@ -410,7 +410,7 @@ loads_library(How, Program, Sent, Escaped, Dir) :-
                escaped(come(How, Hash, Sent), Escaped)).
 
 come(with_agent, Hash, Sent) :-
-    typhon_life:make_life(inf, [], [], false, Life),
+    typhon_agents:make_life(inf, [], [], false, Life),
     typhon_gate:gate(g, from('127.0.0.1:1', Sent, papers(Sent))
                         - entrant(x, Hash, Life, state([], []), []),
                      =(ok), refused(policy(_))).

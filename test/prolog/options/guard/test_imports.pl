@@ -142,7 +142,7 @@ sends(change).
 
 sent(Way, Program, Agent, Answer) :-
     typhon_programs:program_hash(Program, Hash),
-    typhon_life:make_life(inf, [], [], false, Life),
+    typhon_agents:make_life(inf, [], [], false, Life),
     request(Way, Program, Hash, Life, Agent, Kind, Request),
     host_property(g, address(Address)),
     typhon_host:address_parts(Address, _, Endpoint),
@@ -172,7 +172,7 @@ test(restored, Loads == 0) :-
 restored(Program) :-
     folder(Dir),
     directory_file_path(Dir, point, File),
-    typhon_life:make_life(inf, [], [], false, Life),
+    typhon_agents:make_life(inf, [], [], false, Life),
     typhon_restore:restore_point(File, image(x, Program, Life, state([], []),
                                              [], [])),
     outcome(agent_load(File, _, [host(g)]), Outcome),
@@ -273,7 +273,7 @@ test(paths_of_peers_are_refused, Loads == 0) :-
 
 arrives(Program) :-
     typhon_programs:program_hash(Program, Hash),
-    typhon_life:make_life(inf, [], [], false, Life),
+    typhon_agents:make_life(inf, [], [], false, Life),
     outcome(typhon_gate:gate(t, from('127.0.0.1:1', Program, newborn)
                                 - entrant(x, Hash, Life, state([], []), []),
                              =(ok), _), Outcome),
