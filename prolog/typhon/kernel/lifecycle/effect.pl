@@ -21,7 +21,7 @@
 :- use_module('../travel',
               [ hand_over/5, hop/6, hop_at_once/6, hop_clone/6, move_failed/2,
                 move_over/2 ]).
-:- use_module(beginning, [agent_clone_here/3, clone_id/2]).
+:- use_module(creation, [agent_clone_here/3, clone_id/2]).
 :- use_module(ending, [agent_end/2, agent_stays/2]).
 
 /** <module> The effects of control predicates

@@ -14,7 +14,7 @@
 :- use_module('../travel',
               [ agent_resumed/3, move_awaited/2, move_failed/2, move_over/2,
                 out_of_touch/1 ]).
-:- use_module(beginning, [agent_clone_here/3]).
+:- use_module(creation, [agent_clone_here/3]).
 :- use_module(effect, [effect_order/4]).
 :- use_module(ending,
               [agent_end/2, agent_end/3, agent_stays/2, faulty_stirs/1]).

@@ -31,7 +31,7 @@ another process.
 :- vocabulary(typhon_monitor_words).
 
 :- multifile
-    typhon_beginning:at_birth/2,
+    typhon_creation:at_birth/2,
     typhon_creation:first_goal/3,
     typhon_options:declared/4.
 
@@ -47,7 +47,7 @@ typhon_creation:first_goal(Options, Parent,
 %   This process is the home of Id.  The monitor is set before Id begins, and so
 %   before it can move or fail, and its parent cannot end unnoticed.
 
-typhon_beginning:at_birth(monitor(Parent, [shared(self)]), Id) :-
+typhon_creation:at_birth(monitor(Parent, [shared(self)]), Id) :-
     atom(Parent),
     agent_home_endpoint(Parent, _),
     monitor_begin(Id, Parent, self).
