@@ -63,7 +63,7 @@ works_in(Home, Dir) :-
                     'forall(member(F, [agents(mine), payloads(load), \c
                                        agents(other), \c
                                        agents(\'sync/worker\')]), \c
-                            ( typhon_paths:program_file(F, P), \c
+                            ( typhon_source:program_file(F, P), \c
                               writeln(P) ))',
                     'host_start(here)',
                     'host_start(guarded, [policy(guarded), cell(none)])',
@@ -218,7 +218,7 @@ renamed(Status, Out, Err, Agent, Dir) :-
     atom_string(AgentFile, Agent),
     format(atom(Load), 'use_module(~q)', [File]),
     run_swipl(['-f', none, '-g', Load,
-               '-g', 'typhon_paths:program_file(agents(mine), F), write(F)',
+               '-g', 'typhon_source:program_file(agents(mine), F), write(F)',
                '-t', halt],
               [cwd('/')], Status, Out, Err).
 

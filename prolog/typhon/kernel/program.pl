@@ -7,16 +7,13 @@ the clauses.  This layer does not know of hosts or sockets.
 This is the interface of the layer: higher layers import from here.
 */
 
-:- use_module(program/paths, []).
-:- reexport(program/paths, [files_beside/3, path_below/1, program_file/2]).
 :- reexport(program/source,
-            [ clause_parts/3, declaration/4, indicator_in/2, source_clause/2,
-              source_same/1, source_terms/5 ]).
+            [ clause_parts/3, declaration/4, files_beside/3, indicator_in/2,
+              path_below/1, program_file/2, source_clause/2, source_same/1,
+              source_terms/5 ]).
 :- reexport(program/libraries, [library_export/2]).
-:- reexport(program/parts, [file_parts/4, library_directive/2, part/3]).
+:- reexport(program/programs).
 :- reexport(program/places, [place/3]).
-:- reexport('program/programs').
-:- reexport('program/loaded').
 :- reexport(program/code,
             [ code_install/3, code_receive/2, code_module/2, code_known/2,
               code_compiled/2, code_locate/2, code_names/2, code_places/2, code_program/2,

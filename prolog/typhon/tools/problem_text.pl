@@ -6,7 +6,7 @@
 
 /** <module> Texts of problems of programs, with advice
 
-A problem, see typhon_parts, is raised and printed as
+A problem, see typhon_programs, is raised and printed as
 
     error(Formal, at(Location, Text, Others))
 

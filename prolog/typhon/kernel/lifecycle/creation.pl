@@ -120,7 +120,7 @@ create_by(Options, Parent, Spec, Agent) :-
     findall(Goal, first_goal(Options, Parent, Goal), Goals, Goals0),
     State = state(PIs, _),
     Offered = typhon_creation:may_be_offered(Target, Clauses),
-    forall(typhon_loaded:unknown(Hash, PIs, Offered), true),
+    forall(typhon_programs:unknown(Hash, PIs, Offered), true),
     create(Target, Name, start(Hash, Life, State, Goals, []), Agent).
 
 program_of(Spec, Parent, Program, [], Hash) :-

@@ -7,16 +7,11 @@
             declaration/4,              % +Kind, +Term, -Name, -Options
             indicator_in/2,             % +PIs, ?PI
             clause_parts/3,             % +Clause, -Head, -Body
-            reader_directive/1          % +Directive
+            reader_directive/1,         % +Directive
+            program_file/2,             % +Spec, -File
+            files_beside/3,             % +File, +Dir, -Files
+            path_below/1                % @Path
           ]).
-:- use_module(library(apply), [maplist/2, maplist/3]).
-:- use_module(library(error), [must_be/2]).
-:- use_module(library(lists), [member/2, memberchk/2, nth1/3]).
-:- use_module('../base/names', [names_near/3]).
-:- use_module(dict_calls, [dict_calls/2]).
-:- use_module(libraries,
-              [import_operators/2, library_import/2, with_scratch_module/2]).
-:- use_module(paths, [files_beside/3, included_file/3, program_file/2]).
 
 /** <module> Clause files as terms with their locations
 
@@ -24,11 +19,12 @@ Agent programs and payloads are read here, from a file or from a list of terms,
 into pairs Term-Location.  A location is `File:Line`, or clause(N) for the N-th
 term of a list.  Reading never runs anything in the file: directives are terms
 like the others, and only `:- include(F)` is followed.  Grammar rules are
-translated, and terms Map.key become calls.  Operators that the file declares, or imports from libraries, are
-known from there on, in this file alone.  A first line `#!` is skipped.
+translated, and terms Map.key become calls.  Operators that the file declares,
+or imports from libraries, are known from there on, in this file alone.  A first
+line `#!` is skipped.
 
 A term that cannot be read, or looks like a typing error, is a problem as in
-typhon_parts, and reading goes on after it.  The location of a syntax error is
+typhon_programs, and reading goes on after it.  The location of a syntax error is
 file(File, Line, LinePos, CharNo).
 
 A result of reading can be compared with the present files.  A file has changed
@@ -36,8 +32,32 @@ when its size or its time has changed.  A file that was changed within two
 seconds before it was read may change again without changing either: it is not
 settled, and callers must not rely on it.
 
+The file search paths `agents` and `payloads` are defined here. agents(census) is
+agents/census.pl in the working directory, else in the directory of this pack.
+More directories are declared as for any search path, by clauses for
+user:file_search_path/2.  Where library(typhon) is not that of an installed
+pack, `library` also finds the one that is loaded.
+
 *Threading*: any thread.
 */
+
+:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(error),
+              [existence_error/2, must_be/2, permission_error/3]).
+:- autoload(library(filesex), [directory_file_path/3, directory_member/3]).
+:- use_module(library(lists), [member/2, memberchk/2, nth1/3]).
+:- use_module('../base/names', [names_near/3]).
+:- use_module(dict_calls, [dict_calls/2]).
+:- use_module(libraries,
+              [import_operators/2, library_import/2, with_scratch_module/2]).
+
+:- dynamic
+    root/1,
+    user:file_search_path/2.
+
+:- multifile
+    typhon_names:known/2,
+    user:file_search_path/2.
 
 %!  source_terms(+Spec, -Located:list(pair), -Sources:list, -Errors:list,
 %!               -Warnings:list) is det.
@@ -346,3 +366,144 @@ clause_parts(Var, Var, true) :-
 clause_parts((Head:-Body), Head, Body) :-
     !.
 clause_parts(Head, Head, true).
+
+                /*******************************
+                *            PATHS             *
+                *******************************/
+
+%   The root of the pack is four folders up, whatever their names.
+
+:- module_property(typhon_source, file(Source)),
+   file_directory_name(Source, Dir),
+   absolute_file_name('../../../..', Root,
+                      [relative_to(Dir), file_type(directory)]),
+   retractall(root(_)),
+   assertz(root(Root)).
+
+user:file_search_path(agents, Dir) :-
+    program_directory(agents, Dir).
+user:file_search_path(payloads, Dir) :-
+    program_directory(payloads, Dir).
+
+%   In a clone of the repository library(typhon) belongs to no pack: agents
+%   whose programs import it must find the one that is loaded.
+
+:- module_property(typhon_source, file(Source)),
+   file_directory_name(Source, Dir),
+   absolute_file_name('../../..', Prolog,
+                      [relative_to(Dir), file_type(directory)]),
+   (   absolute_file_name(library(typhon), File,
+                          [ file_type(prolog), access(read),
+                            file_errors(fail) ]),
+       file_directory_name(File, Prolog)
+   ->  true
+   ;   asserta(user:file_search_path(library, Prolog))
+   ).
+
+%!  path_below(@Path) is semidet.
+%
+%   Path, Name or Folder/Name, does not leave the folder in which it is looked
+%   for.
+
+path_below(Path) :-
+    atomic(Path),
+    \+ sub_atom(Path, _, _, _, '..'),
+    \+ is_absolute_file_name(Path).
+path_below(Path) :-
+    compound(Path),
+    Path = Folder/Name,
+    path_below(Folder),
+    path_below(Name).
+
+program_directory(Kind, Dir) :-
+    (   working_directory(Parent, Parent)
+    ;   root(Parent)
+    ),
+    directory_file_path(Parent, Kind, Dir).
+
+%!  program_file(+Spec, -File) is det.
+%!  included_file(+Spec, +Includer, -File) is det.
+%
+%   File is the absolute name of the clause file Spec: a term such as
+%   agents(census), or a file name, relative to the working directory or to
+%   that of the file Includer.  The extension `.pl` may be left out.
+%
+%   @error existence_error(source_sink, Spec), or permission_error(open,
+%   source_sink, File) if it exists, and may not be read
+
+program_file(Text, File) :-
+    string(Text),
+    !,
+    atom_string(Spec, Text),
+    program_file(Spec, File).
+program_file(Spec, File) :-
+    must_be(callable, Spec),
+    clause_file(Spec, [], File).
+
+included_file(Spec, Includer, File) :-
+    file_directory_name(Includer, Dir),
+    clause_file(Spec, [relative_to(Dir)], File).
+
+clause_file(Spec, Options0, File) :-
+    Options = [extensions(['',pl])|Options0],
+    catch(absolute_file_name(Spec, File, [access(read)|Options]),
+          error(existence_error(_, _), _),
+          not_to_be_read(Spec, Options)).
+
+not_to_be_read(Spec, Options) :-
+    absolute_file_name(Spec, File,
+                       [access(exist), file_errors(fail)|Options]),
+    exists_file(File),
+    !,
+    permission_error(open, source_sink, File).
+not_to_be_read(Spec, _) :-
+    existence_error(source_sink, Spec).
+
+%!  files_beside(+File:atom, +Dir, -Files:list) is semidet.
+%
+%   Files are names, relative to Dir, that the user may have meant by File, a
+%   clause file that does not exist.
+
+files_beside(File, Dir, Files) :-
+    file_directory_name(File, Folder),
+    absolute_file_name(Folder, Path, [relative_to(Dir)]),
+    catch(directory_files(Path, Entries), error(_, _), fail),
+    findall(Name,
+            ( member(Entry, Entries),
+              file_name_extension(Base, pl, Entry),
+              ( file_name_extension(_, pl, File) -> Named = Entry
+              ; Named = Base
+              ),
+              in_folder(Folder, Named, Name) ),
+            Files).
+
+in_folder('.', Base, Base) :-
+    !.
+in_folder(Folder, Base, Name) :-
+    directory_file_path(Folder, Base, Name).
+
+%   Names as in agents(Name), also of programs in folders, but not of the files
+%   that these include.
+
+typhon_names:known(Alias, Name) :-
+    member(Alias-Kind, [agents-agent, payloads-payload]),
+    Spec =.. [Alias, '.'],
+    absolute_file_name(Spec, Dir,
+                       [ file_type(directory), solutions(all),
+                         file_errors(fail)
+                       ]),
+    catch(program_in(Dir, Kind, Name), error(_, _), fail).
+
+program_in(Dir, Kind, Name) :-
+    directory_member(Dir, File, [extensions([pl]), recursive(true)]),
+    exists_file(File),
+    catch(begins_with(File, Kind), error(_, _), fail),
+    directory_file_path(Dir, Relative, File),
+    file_name_extension(Name, pl, Relative).
+
+begins_with(File, Kind) :-
+    setup_call_cleanup(
+        open(File, read, In, [encoding(utf8)]),
+        read_term(In, (:- Declaration), []),
+        close(In)),
+    functor(Declaration, Kind, _).

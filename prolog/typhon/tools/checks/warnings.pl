@@ -21,7 +21,7 @@
 /** <module> Warnings: likely mistakes in a program
 
 These warnings do not keep a program from running.  They are problems as in
-typhon_parts.
+typhon_programs.
 
 Warnings about a program are printed when it is read, and not again until it
 changes.  Those about calls of predicates that it does not define wait until an
@@ -33,8 +33,8 @@ predicates.
 
 :- multifile
     typhon_fault:advice/3,
-    typhon_loaded:read_anew/4,
-    typhon_loaded:unknown/3,
+    typhon_programs:read_anew/4,
+    typhon_programs:unknown/3,
     typhon_on_demand:joins/2.
 
 %!  program_warnings(+Located, +Kinds, -Warnings:list) is det.
@@ -195,7 +195,7 @@ unknown_advice(Name/Arity, Own, offered(Near)) :-
 
 typhon_on_demand:joins(program, read).
 
-typhon_loaded:read_anew(Key, Hash, Sources, doubtful(Located, Kinds, Once)) :-
+typhon_programs:read_anew(Key, Hash, Sources, doubtful(Located, Kinds, Once)) :-
     program_warnings(Located, Kinds, Likely),
     unknown_problems(Located, Unknown),
     append([Once, Likely, Unknown], Warnings0),
@@ -232,7 +232,7 @@ print_problem(Severity, Problem0) :-
     problem_error(Problem, [], Error),
     print_message(Severity, Error).
 
-typhon_loaded:unknown(Hash, State, Offered) :-
+typhon_programs:unknown(Hash, State, Offered) :-
     warned(Key, Sources, Hash, Unknown),
     Unknown = [_|_],
     assertz(warned(Key, Sources, Hash, [])),

@@ -402,9 +402,9 @@ remembers(File, Fact) :-
     loads(File, Fact).
 
 :- dynamic was_read/1.
-:- multifile typhon_loaded:was_read/2.
+:- multifile typhon_programs:was_read/2.
 
-typhon_loaded:was_read(File, _) :-
+typhon_programs:was_read(File, _) :-
     assertz(test_program:was_read(File)).
 
 %   set_age(+Seconds, +File): File was changed Seconds ago.

@@ -66,7 +66,7 @@ brought(Image, Birth, Answer) :-
     endpoint(beta, Beta),
     guest(Program),
     peer_do(mallory,
-            ( typhon_loaded:program_load(Program, _, _, Hash, _, _),
+            ( typhon_programs:program_load(Program, _, _, Hash, _, _),
               typhon_code:code_sent(Hash, Sent0),
               ( Birth == none -> Sent = Sent0 ; Sent = papers(Birth, Sent0) ),
               typhon_wire:endpoint_call(Beta, hop, hop(beta, Image, Sent),
