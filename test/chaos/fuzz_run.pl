@@ -356,7 +356,7 @@ memory(KB) :-
 footprint([slots-Slots, sessions-Sessions, requests-Requests,
            agents-Agents, threads-Threads, queues-Queues]) :-
     peer_do(victim,
-        ( aggregate_all(count, typhon_acceptor:unproved(_, _, _, _), Slots),
+        ( aggregate_all(count, typhon_connection:unproved(_, _, _, _), Slots),
           aggregate_all(count, typhon_session:session(_, _), Sessions),
           aggregate_all(count, typhon_request:open_request(_, _, _),
                         Requests),

@@ -27,18 +27,16 @@ This is the interface of the layer: higher layers import from here.
               time_hold/1, time_kind/1, time_leave/0, time_let_go/1,
               time_now/1, time_repeats/2, time_seed/1, time_signal/1,
               time_state/1, time_wait/3, time_wanted/2, time_work/1 ]).
-:- reexport(host/alarms,
-            [ alarm_add/3, alarm_stamp/3, alarms_begin/0, alarms_end/0,
-              alarms_go_off/1, index_delete/3, index_first/2, index_make/1,
-              index_update/2 ]).
+:- reexport(host/scheduler,
+            [ agent_parked/1, alarm_add/3, alarm_stamp/3, alarms_begin/0,
+              alarms_end/0, alarms_go_off/1, index_delete/3, index_first/2,
+              index_make/1, index_update/2, schedule/2, schedule_adopt/1,
+              schedule_here/3, schedule_stays/2, scheduler_call/1,
+              scheduler_limited/2, work_do/2 ]).
 :- reexport(host/turns,
             [ context/3, context_agent/1, context_clear/0, context_host/1,
               context_now/2, context_set/3, turn_later/1, turn_of/3,
               turns_go_on/1, turns_now/3, turns_pause/0, turns_paused/0 ]).
-:- reexport(host/scheduler,
-            [ agent_parked/1, schedule/2, schedule_adopt/1, schedule_here/3,
-              schedule_stays/2, scheduler_call/1, scheduler_limited/2,
-              work_do/2 ]).
 :- reexport('host/runtime').
 :- reexport('host/hosting').
 :- reexport('host/remote').

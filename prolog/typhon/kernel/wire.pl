@@ -23,7 +23,7 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(wire/request,
             [endpoint_later/1, endpoint_reply/2, endpoint_reply_later/2]).
 :- reexport(wire/kinds, [arrival_permitted/4]).
-:- reexport(wire/lending, [endpoint_afterwards/1]).
+:- reexport(wire/reader, [endpoint_afterwards/1]).
 :- reexport(wire/connection_manager, [endpoint_flush/1, endpoint_flush/2]).
 :- reexport(wire/peer_cache,
             [ peer_expect/1, peer_expect_no_more/1, endpoint_gone/1,

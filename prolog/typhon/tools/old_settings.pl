@@ -59,7 +59,7 @@ renamed(typhon_keeper:return_time, typhon_connection_manager:return_time).
 renamed(typhon_legacies:clones, typhon_outcomes:clones).
 renamed(typhon_legacies:legacies, typhon_outcomes:results).
 renamed(typhon_legacy:result_bytes, typhon_payloads:result_bytes).
-renamed(typhon_agents:faulty, typhon_creation:faulty).
+renamed(typhon_life:faulty, typhon_creation:faulty).
 renamed(typhon_named:met, typhon_questions:met).
 renamed(typhon_nxt_helper:python, typhon_nxt_link:python).
 renamed(typhon_overuse:pause, typhon_quota_enforcer:pause).

@@ -163,16 +163,16 @@ held(thread(T, S, G)) :-
 held(queue(Q, N)) :-
     message_queue_property(Q, size(N)), N > 0.
 held(alarm(A)) :-
-    current_predicate(typhon_alarms:F/N),
+    current_predicate(typhon_scheduler:F/N),
     functor(A, F, N),
-    predicate_property(typhon_alarms:A, dynamic),
-    clause(typhon_alarms:A, true).
+    predicate_property(typhon_scheduler:A, dynamic),
+    clause(typhon_scheduler:A, true).
 held(fact(M:A)) :-
     member(M, [typhon_connection_manager,typhon_session,typhon_connection_manager,
                typhon_peer_cache,typhon_hop_ids,typhon_transfer,typhon_transfer,
                typhon_arrival,typhon_whereabouts,typhon_whereabouts,typhon_news,typhon_window,
                typhon_session,typhon_session,typhon_session,typhon_committing,typhon_connection,
-               typhon_lending]),
+               typhon_reader]),
     current_predicate(M:F/N),
     functor(A, F, N),
     predicate_property(M:A, dynamic),

@@ -9,7 +9,7 @@
 
 %   old(?Old, ?New): in 0.1.0 the setting had the name Old.
 
-old(typhon_acceptor:strangers, typhon_acceptor:unproved).
+old(typhon_connection:strangers, typhon_acceptor:unproved).
 old(typhon_auth:handshake_time, typhon_handshake:handshake_time).
 old(typhon_base_key_files:certificates, typhon_keys:certificates).
 old(typhon_carrier:rest_seconds, typhon_node_process:rest_seconds).

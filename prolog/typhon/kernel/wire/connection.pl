@@ -1,10 +1,10 @@
 :- module(typhon_connection,
-          [ incoming/5,                 % +In, +Out, +Ip, :Stage, +Me
-            outgoing/2,                 % +Address, +Me
-            open_streams/3              % +Socket, -In, -Out
+          [ outgoing/2,                 % +Address, +Me
+            accept_all/2,               % +Socket, +Me
+            accept_no_more/0
           ]).
 
-/** <module> The thread of one connection
+/** <module> Connections: accepting them, and the thread of each
 
 A connection has one thread, which opens its streams, gives the connection to
 the session of the peer, reads frames until it breaks, and closes the streams.
@@ -20,59 +20,89 @@ sends its count first, and on one connection at a time. Of two connections that
 were begun together it refuses the later; the other process accepts the
 connection on which the arbiter sends its count.
 
-*Threading*: incoming/5 and outgoing/2 are the goals of threads of the wire.
+Each client has a thread of its own and, until it has proved itself, one of a
+bounded number of slots. If all are taken, a new client gets the slot of
+another, by these rules in this order: of an address from which no peer has
+proved itself; of the address that holds most slots; of a client that has sent
+nothing yet; of the oldest. So a client that only occupies slots keeps them only
+as long as no other client needs them.
+
+Most unknown clients speak another protocol. A client whose first byte has
+arrived, and is not that of a greeting, gets neither slot nor thread.
+
+A message for each second reports the number, addresses and reasons of refusals,
+see typhon_reports.
+
+*Threading*: incoming/5 and outgoing/2 are the goals of threads of the wire,
+and so is accept_all/2, which is woken by a signal: closing the socket would
+not wake it. A mutex guards the slots: the acceptor gives and takes them, the
+thread of a client reports its progress and returns its own.
 */
 
-:- use_module('../base/reports', [report/4]).
+:- autoload(library(aggregate), [aggregate_all/3]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [syntax_error/1]).
-:- use_module(library(settings), [setting/2]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(pairs), [group_pairs_by_key/2, pairs_keys_values/3]).
+:- use_module(library(settings), [setting/2, setting/4]).
 :- autoload(library(socket),
-              [ tcp_close_socket/1, tcp_connect/2, tcp_open_socket/3,
-                tcp_setopt/2, tcp_socket/1 ]).
+            [ tcp_accept/3, tcp_close_socket/1, tcp_connect/2,
+              tcp_open_socket/3, tcp_setopt/2, tcp_socket/1 ]).
 :- use_module('../base/monotonic', [monotonic_time/1]).
+:- use_module('../base/names', [counted/3]).
+:- use_module('../base/reports', [report/4]).
 :- use_module(addresses, [endpoint_parts/3, must_be_endpoint/1]).
-:- use_module(peer_cache, [peer_gone/1, peer_met/2]).
 :- use_module(handshake,
               [ authenticate/6, cookie/1, hello_codec/3, hello_peer/4,
                 hello_to/3 ]).
-:- use_module(threads, [manager_notify/1]).
-:- use_module(lending, [lent_away/0]).
-:- use_module(reader, [read_frames/3]).
+:- use_module(peer_cache, [peer_gone/1, peer_met/2]).
+:- use_module(reader, [lent_away/0, read_frames/3]).
 :- use_module(session,
               [ connection_is/2, route_add/2, session_adopting/2,
                 session_install/4, session_left/0, session_lost/2,
                 session_open/4, session_peer/3, session_received/2,
                 session_retire/1, session_to_self/1, session_up_since/2 ]).
+:- use_module(threads,
+              [ manager_notify/1, wire_thread_create/4, wire_thread_running/1,
+                wire_thread_signal/2 ]).
 :- use_module(transport,
               [ line_read/3, line_write/2, refusal_text/2, transport_close/0,
                 transport_first/2, transport_open/6 ]).
 
-:- multifile
-    harmless/1,                 % Formal: a break that need not be reported
-    listens_at/3,               % Address, Interface, Port: this process listens
-                                % there, and Address is one of its own
-    typhon_handshake:greeted/0.
+:- setting(typhon_acceptor:unproved, positive_integer, 128,
+           "Connections at a time that have not proved themselves").
 
 :- meta_predicate
     incoming(+, +, +, 1, +),
     meet(+, +, +, +, 0, 2),
     join_session(+, +, +, +, +, -, 2),
-    with_streams(0, ?, ?, 0).
+    with_streams(0, ?, ?, 0),
+    slot(0).
 
-%!  incoming(+In, +Out, +Ip, :Stage, +Me) is det.
-%
-%   Serve the client at Ip, whose streams are In and Out; Me is the hello of
-%   this process.  Stage is called with `silent`, after which this thread closes
-%   the streams, with `heard` when the client has sent something, and with
-%   `proved` or refused(Formal).  If a call fails the connection ends.
+:- dynamic
+    unproved/4,                         % Thread, Ip, Since, Stage
+    proved/1.                           % Ip, of a peer; the newest last
+
+:- multifile
+    harmless/1,                         % Formal: a break that need not be reported
+    listens_at/3,                       % Address, Interface, Port: this process listens
+                                        % there, and Address is one of its own
+    typhon_handshake:greeted/0,
+    prolog:message//1,
+    typhon_reports:summary/3.
+
+%   incoming(+In, +Out, +Ip, :Stage, +Me): serve the client at Ip, whose
+%   streams are In and Out; Me is the hello of this process. Stage is called
+%   with `silent`, after which this thread closes the streams, with `heard`
+%   when the client has sent something, and with `proved` or refused(Formal).
+%   If a call fails the connection ends.
 
 incoming(In, Out, Ip, Stage, Me) :-
     monotonic_time(Start),
     catch(with_streams(call(Stage, silent), In, Out,
                        ( await_first_byte(In, Out),
                          call(Stage, heard),
-                         meet(server(Start), In, Out, Me, proved(Stage),
+                         meet(server(Start), In, Out, Me, proves(Stage),
                               reachable(Ip)) )),
           error(Formal, _),
           report_refused(Ip, Formal, Stage)).
@@ -86,7 +116,7 @@ await_first_byte(In, Out) :-
     ;   transport_first(Byte, Out)
     ).
 
-proved(Stage) :-
+proves(Stage) :-
     call(Stage, proved),
     nb_setval(typhon_proved, true).
 
@@ -185,9 +215,7 @@ close_stream(Stream) :-
           error(existence_error(stream, _), _),
           true).
 
-%!  open_streams(+Socket, -In, -Out) is det.
-%
-%   From now on the streams own Socket.
+%   open_streams(+Socket, -In, -Out): from now on the streams own Socket.
 
 open_streams(Socket, In, Out) :-
     catch(( tcp_setopt(Socket, nodelay),
@@ -364,8 +392,6 @@ is_normal_break(Formal) :-
 is_normal_break(Formal) :-
     harmless(Formal).
 
-:- multifile prolog:message//1.
-
 prolog:message(typhon(endpoint, foreign(Address, Formal))) -->
     { arg(3, Formal, Why),
       refusal_text(Why, Text)
@@ -383,3 +409,288 @@ prolog:message(typhon(endpoint, foreign(Address, Formal))) -->
       -[Address, Theirs] ].
 prolog:message(typhon(endpoint, broken(Address, Formal))) -->
     [ 'Endpoint: connection with ~w broken: ~p'-[Address, Formal] ].
+
+                /*******************************
+                *          ACCEPTING           *
+                *******************************/
+
+%   The number of addresses kept in proved/1.
+
+proved_addresses(256).
+
+%!  accept_all(+Socket, +Me)
+%
+%   Serve all clients that connect to Socket until stopped by a signal.  Me is
+%   the hello of this process.
+
+accept_all(Socket, Me) :-
+    repeat,
+    catch(accept(Socket, Me), error(Formal, _), accept_failed(Formal)),
+    fail.
+
+%!  accept_no_more is det.
+%
+%   Close the streams of clients whose threads had not begun with them.  Called
+%   when all threads of the endpoint have ended.
+
+accept_no_more :-
+    forall(unproved(Thread, _, _, _), take_slot(Thread)).
+
+accept(Socket, Me) :-
+    tcp_accept(Socket, Client, ip(A, B, C, D)),
+    atomic_list_concat([A, B, C, D], '.', Ip),
+    sig_atomic(admit(Client, Ip, Me)).
+
+%   Most likely descriptors are used up: unproved clients may hold them.
+
+accept_failed(Formal) :-
+    refused(anywhere, Formal),
+    sig_atomic(ignore(slot(evict(_)))),
+    sleep(0.1).
+
+admit(Client, Ip, Me) :-
+    catch(open_streams(Client, In, Out),
+          error(Formal, _),
+          refused(Ip, Formal)),
+    (   nonvar(In)
+    ->  admit(In, Out, Ip, Me)
+    ;   true
+    ).
+
+admit(In, Out, Ip, Me) :-
+    catch(let_in(In, Out, Ip, Me, Evicted),
+          error(Formal, _),
+          ( close_streams(In, Out),
+            refused(Ip, Formal) )),
+    (   nonvar(Evicted)
+    ->  refused(Evicted, silent)
+    ;   true
+    ).
+
+let_in(In, Out, Ip, Me, Evicted) :-
+    (   wait_for_input([In], [_], 0)
+    ->  peek_code(In, Byte),
+        check_first(Byte, Out)
+    ;   true
+    ),
+    slot(give(In, Out, Ip, Me, Evicted)).
+
+check_first(-1, _) :-
+    !,
+    syntax_error(end_of_file).
+check_first(Byte, Out) :-
+    transport_first(Byte, Out).
+
+close_streams(In, Out) :-
+    close(Out, [force(true)]),
+    close(In, [force(true)]).
+
+slot(Goal) :-
+    with_mutex(typhon_connection, Goal).
+
+give(In, Out, Ip, Me, Evicted) :-
+    (   has_slot
+    ->  true
+    ;   evict(Evicted)
+    ->  true
+    ;   throw(error(crowd, _))
+    ),
+    monotonic_time(Now),
+    wire_thread_create(serve(In, Out, Ip, Me), in-Ip, Thread,
+                       assertz(unproved(Thread, Ip, Now, new(In, Out)))).
+
+		 /*******************************
+		 *            SLOTS             *
+		 *******************************/
+
+has_slot :-
+    free_slot,
+    !.
+has_slot :-
+    forall(( unproved(Thread, _, _, _), \+ wire_thread_running(Thread) ),
+           bury(Thread)),
+    free_slot.
+
+free_slot :-
+    predicate_property(unproved(_, _, _, _), number_of_clauses(Count)),
+    setting(typhon_acceptor:unproved, Max),
+    Count < Max.
+
+%   A thread that was interrupted in its first or last steps may not have
+%   reported its end.
+
+bury(Thread) :-
+    take_slot(Thread),
+    ignore(manager_notify(ended(Thread))).
+
+evict(Ip) :-
+    victim(Thread, Ip),
+    take_slot(Thread),
+    wire_thread_signal(Thread, evicted).
+
+victim(Thread, Ip) :-
+    findall(Ip0, unproved(_, Ip0, _, _), Ips0),
+    msort(Ips0, Ips),
+    pairs_keys_values(Pairs, Ips, Ips),
+    group_pairs_by_key(Pairs, Holders),
+    findall(Rank-(Thread1-Ip1),
+            ( member(Ip1-Slots, Holders),
+              address_rank(Ip1, Slots, Known, Free),
+              unproved(Thread1, Ip1, Since, Stage),
+              stage_rank(Stage, Spoke),
+              Rank = rank(Known, Free, Spoke, Since) ),
+            Ranked),
+    keysort(Ranked, [_-(Thread-Ip)|_]).
+
+%   The streams of a client whose thread has not begun with them are closed
+%   here.
+
+take_slot(Thread) :-
+    retract(unproved(Thread, _, _, Stage)),
+    !,
+    (   Stage = new(In, Out)
+    ->  close_streams(In, Out)
+    ;   true
+    ).
+
+address_rank(Ip, Slots, Known, Free) :-
+    (   proved(Ip)
+    ->  Known = 1
+    ;   Known = 0
+    ),
+    length(Slots, Count),
+    Free is -Count.
+
+%   A new client has had no time to send anything.
+
+stage_rank(silent, Spoke) =>
+    Spoke = 0.
+stage_rank(_, Spoke) =>
+    Spoke = 1.
+
+		 /*******************************
+		 *            CLIENTS           *
+		 *******************************/
+
+serve(In, Out, Ip, Me) :-
+    call_cleanup(incoming(In, Out, Ip, typhon_connection:stage(Ip), Me),
+                 leave).
+
+%   stage(+Ip, +Stage): the client of this thread has come so far: `silent`, its
+%   streams belong to its thread; `heard`; `proved`; or refused(Formal).  Fails
+%   if the slot of the client was given to another, whose thread has counted the
+%   refusal.
+
+stage(Ip, refused(Formal)) :-
+    !,
+    sig_atomic(slot(returned)),
+    refused(Ip, Formal).
+stage(Ip, Stage) :-
+    sig_atomic(slot(reach(Stage, Ip))).
+
+returned :-
+    thread_self(Me),
+    retract(unproved(Me, _, _, _)),
+    !.
+
+reach(proved, Ip) :-
+    !,
+    leave,
+    remember(Ip).
+reach(Stage, _) :-
+    thread_self(Me),
+    retract(unproved(Me, Ip, Since, _)),
+    !,
+    assertz(unproved(Me, Ip, Since, Stage)).
+
+leave :-
+    thread_self(Me),
+    retractall(unproved(Me, _, _, _)).
+
+remember(Ip) :-
+    proved(Ip),
+    !.
+remember(Ip) :-
+    assertz(proved(Ip)),
+    predicate_property(proved(_), number_of_clauses(Count)),
+    proved_addresses(Max),
+    (   Count > Max
+    ->  once(retract(proved(_)))
+    ;   true
+    ).
+
+		 /*******************************
+		 *           REFUSALS           *
+		 *******************************/
+
+%   refused(+Ip, +Formal): a client at Ip was refused. Formal is that of an
+%   error, `silent` (its slot was needed), `crowd` (there was no slot), or
+%   version(V).
+
+refused(Ip, Formal) :-
+    reason(Formal, Why),
+    level(Why, Level),
+    report(Level, refused_clients, Ip-Why,
+           typhon(endpoint, turned_away(Ip, Why))).
+
+typhon_reports:summary(refused_clients, Groups,
+                       typhon(endpoint, turned_away(Groups))).
+
+%   reason(+Formal, -Why): Why has no details that differ from case to case.
+
+reason(permission_error(authenticate, peer, Why0), Why) =>
+    Why = Why0.
+reason(syntax_error(end_of_file), Why) =>
+    Why = hung_up.
+reason(syntax_error(Why0), Why) =>
+    Why = Why0.
+reason(timeout_error(_, _), Why) =>
+    Why = slow.
+reason(io_error(_, _), Why) =>
+    Why = broken.
+reason(socket_error(_, _), Why) =>
+    Why = broken.
+reason(Why0, Why) =>
+    Why = Why0.
+
+level(Why, Level) :-
+    (   memberchk(Why, [hung_up, broken])
+    ->  Level = informational
+    ;   Level = warning
+    ).
+
+prolog:message(typhon(endpoint, turned_away(Ip, Why))) -->
+    [ 'Endpoint: refused a client at ~w: '-[Ip] ],
+    why(Why).
+prolog:message(typhon(endpoint, turned_away(Groups))) -->
+    { aggregate_all(sum(Count), member(Count-_, Groups), Sum),
+      counted(Sum, 'more client', Clients) },
+    [ 'Endpoint: refused ~w:'-[Clients] ],
+    groups(Groups).
+
+groups([]) -->
+    [].
+groups([Count-Group|Groups]) -->
+    { Group = Ip-Why -> true ; Ip-Why = others-several },
+    [ nl, '  ~D at ~w: '-[Count, Ip] ],
+    why(Why),
+    groups(Groups).
+
+why(version(Version)) -->
+    !, [ 'it speaks another version of the protocol, ~w'-[Version] ].
+why(Why) -->
+    { ours(Why, Text) ; refusal_text(Why, Text) },
+    !, [ '~w'-[Text] ].
+why(Why) -->
+    [ '~p'-[Why] ].
+
+ours(cookie, 'its cookie is not that of this process').
+ours(protocol, 'it uses another protocol').
+ours(hung_up, 'it closed the connection').
+ours(broken, 'the connection broke').
+ours(slow, 'it did not complete the handshake in time').
+ours(silent, 'its slot was given to another client').
+ours(crowd, 'all slots are taken').
+ours(line, 'it sent a line that is too long').
+ours(other, 'it claims to be another process').
+ours(several, 'for several reasons').

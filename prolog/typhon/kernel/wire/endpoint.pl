@@ -24,7 +24,7 @@ clause for each kind of message, in the module that owns the kind:
     fails if they are to be taken one by one
   - requested(+Kind, +Term, +Peer, +ReplyTo)
   - connection(+Peer, +State)
-  - lent(+Thread) and returned, see typhon_lending
+  - lent(+Thread) and returned, see typhon_reader
 
 Peer is the address at which the sender listens.
 
@@ -53,13 +53,13 @@ under the mutex of the endpoint.
 :- use_module(addresses,
               [ announced/4, endpoint_parts/3, must_be_reachable/2,
                 stands_for_all/1 ]).
-:- use_module(acceptor, [accept_all/2, accept_no_more/0]).
+:- use_module(connection, [accept_all/2, accept_no_more/0]).
 :- use_module(handshake, [cookie/1, hello/4, random_hex/2]).
 :- use_module(connection_manager,
               [manager_begin/1, manager_end/0, peers_flush/1]).
 :- use_module(threads,
               [wire_thread_create/3, wire_thread_end/2, wire_threads_end/0]).
-:- use_module(lending, [lending_anew/0]).
+:- use_module(reader, [lending_anew/0]).
 :- use_module(session, [session/2, session_close/2, session_control/2]).
 :- use_module(request, [requests_lost/2]).
 :- use_module(transport,

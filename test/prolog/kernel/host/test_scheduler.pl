@@ -271,7 +271,7 @@ beside_blocked(Count, O, S) :-
 alarm_count(Alarms, Indexed) :-
     typhon_scheduler:timer(Timer),
     server_call(Timer, count, inf, Indexed),
-    predicate_property(typhon_alarms:alarm(_, _, _),
+    predicate_property(typhon_scheduler:alarm(_, _, _),
                        number_of_clauses(Alarms)).
 
 %   A signal that comes just before a thread waits does not wake it.

@@ -46,7 +46,7 @@ with_silent_home(Home, Goal) :-
 %   The worker that has posted news waits for an alarm.
 
 kept(Home, Kept) :-
-    wait_until(( typhon_alarms:alarm(_, Home, news(_)),
+    wait_until(( typhon_scheduler:alarm(_, Home, news(_)),
                  findall(News, typhon_news:news(Home, x, News), Kept),
                  Kept \== [] ), 20).
 

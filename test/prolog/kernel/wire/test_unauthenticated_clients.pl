@@ -89,7 +89,7 @@ newcomer(I, Seconds) :-
             Seconds).
 
 slots(Count) :-
-    aggregate_all(count, typhon_acceptor:unproved(_, _, _, _), Count).
+    aggregate_all(count, typhon_connection:unproved(_, _, _, _), Count).
 
 :- begin_tests(silent_clients_do_not_block_peers).
 
@@ -123,7 +123,7 @@ silent(Count) :-
     forall(member(Stage, Stages), Stage == silent).
 
 stages(Stages) :-
-    findall(Stage, typhon_acceptor:unproved(_, _, _, Stage), Stages0),
+    findall(Stage, typhon_connection:unproved(_, _, _, Stage), Stages0),
     msort(Stages0, Stages).
 
 crowded(Silent) :-
@@ -151,20 +151,20 @@ test(evicted, [ forall(evicted(Slots, Proved, Expected)), V == Expected ]) :-
     slots(Slots, Proved, V).
 test(addresses_are_bounded, Count == 256) :-
     forget_all,
-    forall(between(1, 1000, I), typhon_acceptor:remember(I)),
-    typhon_acceptor:proved(1000),
-    aggregate_all(count, typhon_acceptor:proved(_), Count).
+    forall(between(1, 1000, I), typhon_connection:remember(I)),
+    typhon_connection:proved(1000),
+    aggregate_all(count, typhon_connection:proved(_), Count).
 
 slots(Slots, Proved, Victim) :-
     forget_all,
     forall(member(Thread-Ip-Since-Stage, Slots),
-           assertz(typhon_acceptor:unproved(Thread, Ip, Since, Stage))),
-    forall(member(Ip, Proved), assertz(typhon_acceptor:proved(Ip))),
-    typhon_acceptor:victim(Victim, _).
+           assertz(typhon_connection:unproved(Thread, Ip, Since, Stage))),
+    forall(member(Ip, Proved), assertz(typhon_connection:proved(Ip))),
+    typhon_connection:victim(Victim, _).
 
 forget_all :-
-    retractall(typhon_acceptor:unproved(_, _, _, _)),
-    retractall(typhon_acceptor:proved(_)).
+    retractall(typhon_connection:unproved(_, _, _, _)),
+    retractall(typhon_connection:proved(_)).
 
 :- end_tests(order_of_eviction).
 
@@ -223,12 +223,12 @@ test(few_lines_count_all_refusals, Sum == 500) :-
     assertion(Lines =< 3+(T1-T0)).
 test(refusal_with_a_reused_slot_is_reported_once, Sum == 50) :-
     setup_call_cleanup(
-        wrap_predicate(typhon_acceptor:refused(_, _), slow, Counted,
+        wrap_predicate(typhon_connection:refused(_, _), slow, Counted,
                        ( Counted, sleep(0.01) )),
         with_settings([typhon_acceptor:unproved=2],
                       fresh(( forall(between(1, 50, _), shouts("typhon\n")),
                               wait_until(( noted_so_far(N), N >= 50 ), 30) ))),
-        unwrap_predicate(typhon_acceptor:refused/2, slow)),
+        unwrap_predicate(typhon_connection:refused/2, slow)),
     noted_so_far(Sum).
 test(refusals_are_reported_at_the_end, Sum == 20) :-
     fresh(( forall(between(1, 20, _), shouts("\n")),
@@ -239,7 +239,7 @@ test(last_refusals_are_reported, Sum == 20) :-
         wrap_predicate(typhon_threads:wire_threads_end, last, End,
                        ( End,
                          forall(between(1, 20, _),
-                                typhon_acceptor:refused(x, silent)) )),
+                                typhon_connection:refused(x, silent)) )),
         fresh(true),
         unwrap_predicate(typhon_threads:wire_threads_end/0, last)),
     counted(Sum).
