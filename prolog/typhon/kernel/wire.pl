@@ -9,14 +9,12 @@ This is the interface of the layer: higher layers import from here.
 
 :- reexport(wire/addresses, [endpoint_parts/3, must_be_endpoint/1]).
 :- reexport(wire/endpoint,
-            [ endpoint_address/1, endpoint_listen/2,
-              endpoint_listen_end/1, endpoint_open/0, endpoint_option/1,
-              endpoint_process/1, endpoint_start/4,
-              endpoint_start_alone/1, endpoint_stop/0 ]).
-:- reexport(wire/messaging,
-            [ endpoint_ask_all/6, endpoint_call/5, endpoint_hand/4,
-              endpoint_post/3, endpoint_post_by/4, endpoint_post_up/3,
-              endpoint_request/4 ]).
+            [ endpoint_address/1, endpoint_ask_all/6, endpoint_call/5,
+              endpoint_hand/4, endpoint_listen/2, endpoint_listen_end/1,
+              endpoint_open/0, endpoint_option/1, endpoint_post/3,
+              endpoint_post_by/4, endpoint_post_up/3, endpoint_process/1,
+              endpoint_request/4, endpoint_start/4, endpoint_start_alone/1,
+              endpoint_stop/0 ]).
 :- reexport(wire/session,
             [ endpoint_hand_over/2, endpoint_hand_to/2, endpoint_handed/2,
               frame_fits/1 ]).

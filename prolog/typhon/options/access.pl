@@ -3,10 +3,10 @@
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(terms), [mapargs/3]).
-:- use_module('../kernel/base/error_text', [abridged/3, print_error/2]).
+:- use_module('../kernel/base/error_text',
+              [abridged/3, is_tree/2, print_error/2]).
 :- use_module('../kernel/base/private', [output_file/2, private_open/4]).
 :- use_module('../kernel/base/text', [write_portable/3]).
-:- use_module('../kernel/base/trees', [is_tree/2]).
 :- use_module('../kernel/wire', [endpoint_proof/2]).
 :- use_module('../kernel/host', [host_option/2]).
 

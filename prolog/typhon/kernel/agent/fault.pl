@@ -13,7 +13,7 @@
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../base/trees', [is_in_itself/1]).
+:- use_module('../base/error_text', [is_in_itself/1]).
 :- use_module('../wire', [mobile_term/1]).
 :- use_module('../base/on_demand', [on_demand_load/2]).
 :- use_module('../program', [fault/3]).

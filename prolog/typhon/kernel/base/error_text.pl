@@ -7,12 +7,10 @@
             is_remark/1,                % @Text
             is_abort/1,                 % @Ball
             abridged/3,                 % +Term, +Longest, -Text
-            harmless_error/2            % +Ball0, -Ball
+            harmless_error/2,           % +Ball0, -Ball
+            is_tree/2,                  % +Term, +Most
+            is_in_itself/1              % +Term
           ]).
-:- use_module(library(apply), [maplist/2]).
-:- use_module(library(lists), [member/2]).
-:- use_module(text, [shown_lines/2]).
-:- use_module(trees, [is_tree/2]).
 
 /** <module> Errors from elsewhere as text
 
@@ -29,9 +27,18 @@ Some of these call parts of an error; harmless_error/2 finds such errors.
 *Threading*: pure, except for a flag that is local to the thread.
 */
 
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(lists), [member/2]).
+:- use_module(text, [shown_lines/2]).
+
+:- meta_predicate plainly(//, -).
+
 :- multifile
-    lines//1,                   % +Error: the lines of its message
-    prolog:message//1.
+    lines//1,                           % +Error: the lines of its message
+    prolog:message//1,
+    formal_lines//1,                    % +Formal: of an error of ISO, SWI-Prolog or
+                                        % this library
+    prolog:error_message//1.
 
 %!  print_error(+Kind, +Error) is det.
 %
@@ -99,8 +106,6 @@ large_text(Term, Text) :-
 
 %   plainly(:Message, -Text): Text is the text of the lines of Message, written
 %   without hooks.
-
-:- meta_predicate plainly(//, -).
 
 plainly(Message, Text) :-
     plain_options(Options),
@@ -199,11 +204,6 @@ named(Term) :-
                 *         RAISED AGAIN         *
                 *******************************/
 
-:- multifile
-    formal_lines//1,            % +Formal: of an error of ISO, SWI-Prolog or
-                                % this library
-    prolog:error_message//1.
-
 %!  harmless_error(+Ball0, -Ball) is det.
 %
 %   Ball is to be raised here in place of Ball0, which another process raised.
@@ -294,3 +294,93 @@ translating(error(Formal, _), Formal, Any, Hook) :-
 
 prolog:error_message(raised_elsewhere(Ball)) -->
     [ 'Raised elsewhere: ~p'-[Ball] ].
+
+                /*******************************
+                *    CYCLIC AND DEEP TERMS     *
+                *******************************/
+
+%!  is_tree(+Term, +Most) is semidet.
+%
+%   Term is acyclic, and has at most Most parts when shared parts are written
+%   out: forty cells may be a term of 2^40 parts.  Each eight characters of a
+%   text, and each eight bytes of an integer, count as a part, too.
+
+is_tree(Term, Most) :-
+    acyclic_term(Term),
+    tree(Term, Most, _).
+
+tree(Term, N0, N) :-
+    (   atom(Term)
+    ->  atom_length(Term, Length),
+        N is N0-1-Length//8
+    ;   integer(Term),
+        is_small(Term)
+    ->  N is N0-1
+    ;   nonvar(Term),
+        Term = [Head|Tail]
+    ->  N1 is N0-1,
+        N1 >= 0,
+        tree(Head, N1, N2),
+        tree(Tail, N2, N)
+    ;   compound(Term)
+    ->  compound_name_arity(Term, Name, Arity),
+        name_parts(Name, Parts),
+        N1 is N0-Parts,
+        N1 >= 0,
+        arguments(1, Arity, Term, N1, N)
+    ;   text_parts(Term, Parts),
+        N is N0-Parts
+    ),
+    N >= 0.
+
+%   The name of a dict is not an atom.
+
+name_parts(Name, Parts) :-
+    (   atom(Name)
+    ->  atom_length(Name, Length),
+        Parts is 1+Length//8
+    ;   Parts = 1
+    ).
+
+arguments(I, Arity, Term, N0, N) :-
+    (   I < Arity
+    ->  arg(I, Term, Arg),
+        tree(Arg, N0, N1),
+        I1 is I+1,
+        arguments(I1, Arity, Term, N1, N)
+    ;   I =:= Arity
+    ->  arg(I, Term, Arg),
+        tree(Arg, N0, N)
+    ;   N = N0
+    ).
+
+%   Strings and integers may be long, too.
+
+text_parts(Term, Parts) :-
+    (   integer(Term)
+    ->  Parts is 1+msb(abs(Term))//64
+    ;   string(Term)
+    ->  string_length(Term, Length),
+        Parts is 1+Length//8
+    ;   rational(Term, N, D)
+    ->  Parts is 2+msb(abs(N)+1)//64+msb(D)//64
+    ;   Parts = 1
+    ).
+
+is_small(Integer) :-
+    Integer >= -0x7fff_ffff,
+    Integer =< 0x7fff_ffff.
+
+%!  is_in_itself(+Term) is semidet.
+%
+%   Term is a part of one of its own arguments.  This is a stronger condition
+%   than being cyclic: a mark that replaces one argument is then found below
+%   the former arguments of Term.
+
+is_in_itself(Term) :-
+    cyclic_term(Term),
+    \+ \+ ( compound_name_arguments(Term, _, Args),
+            setarg(1, Term, Mark),
+            term_variables(Args, Variables),
+            member(Variable, Variables),
+            Variable == Mark ).

@@ -52,7 +52,7 @@ of the session guards a queue of bundles.
 :- use_module(library(sha), [sha_hash/3]).
 :- use_module('../base/prolog_faults', [fast_bytes_term/2]).
 :- use_module('../base/text', [term_text/2, text_term/2]).
-:- use_module('../base/trees', [is_in_itself/1]).
+:- use_module('../base/error_text', [is_in_itself/1]).
 
 %!  frame_write(+Out, +Counts, +Bytes) is det.
 %

@@ -91,7 +91,7 @@ request_forget(OnAnswer) :-
 %
 %   Answer a request, from any thread, at any later time. A second answer is
 %   ignored.  ReplyTo is reply_to(Session, Id), or alone(OnAnswer): see
-%   messaging.pl.
+%   endpoint.pl.
 
 endpoint_reply(reply_to(Session, Id), Term) :-
     session_answer(Session, answer(Id, Term)).

@@ -6,7 +6,7 @@
 :- use_module('../../kernel/base/bounds', [space_used_up/1]).
 :- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../../kernel/base/on_demand', [on_demand_load/2]).
-:- use_module('../../kernel/base/trees', [is_tree/2]).
+:- use_module('../../kernel/base/error_text', [is_tree/2]).
 :- use_module('../../kernel/program',
               [ answer_at/3, code_known/2, code_receive/2, fault_noted/1,
                 machine_run/3, plain_goals/2 ]).

@@ -10,7 +10,7 @@
 :- use_module(library(apply), [partition/4]).
 :- use_module(library(lists), [append/2, append/3, member/2]).
 :- use_module(library(ordsets), [ord_subtract/3, ord_union/3]).
-:- use_module('../../kernel/base/trees', [is_tree/2]).
+:- use_module('../../kernel/base/error_text', [is_tree/2]).
 :- use_module('../../kernel/base/durable',
               [durable/5, durable_assertz/1, durable_drop/3]).
 :- use_module('../../kernel/agent', [agent/5, agent_status/3, life_hops/2]).

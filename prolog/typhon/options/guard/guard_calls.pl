@@ -7,7 +7,7 @@
 :- use_module(library(error), [permission_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../../kernel/base/trees', [is_tree/2]).
+:- use_module('../../kernel/base/error_text', [is_tree/2]).
 :- use_module('../../kernel/program', [path_below/1]).
 :- use_module('../../kernel/host', [context_now/2, parts/3]).
 :- use_module('../../kernel/agent', [agent_code/2]).

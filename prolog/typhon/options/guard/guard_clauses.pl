@@ -8,7 +8,7 @@
           ]).
 :- use_module(library(apply), [exclude/3, foldl/4, maplist/2, maplist/3]).
 :- use_module(library(assoc), [empty_assoc/1, put_assoc/4]).
-:- use_module('../../kernel/base/trees', [is_tree/2]).
+:- use_module('../../kernel/base/error_text', [is_tree/2]).
 :- use_module('../../kernel/program', [clause_parts/3]).
 :- use_module(allowed, [allowed_library/1, definable/1, own_name/1]).
 :- use_module(guard_bodies, [guard/3, guard_parts/1]).

@@ -10,7 +10,7 @@
 :- use_module(library(error), [permission_error/3]).
 :- use_module(library(lists), [member/2, sum_list/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../../kernel/base/trees', [is_tree/2]).
+:- use_module('../../kernel/base/error_text', [is_tree/2]).
 :- use_module('../../kernel/host', [context_now/2, parts/3]).
 
 /** <module> Limits on the size of terms and texts of untrusted agents

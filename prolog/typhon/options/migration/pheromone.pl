@@ -10,9 +10,8 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../../kernel/base/error_text', [print_error/2]).
+:- use_module('../../kernel/base/error_text', [is_tree/2, print_error/2]).
 :- use_module('../../kernel/base/prng', [chance_member/4]).
-:- use_module('../../kernel/base/trees', [is_tree/2]).
 :- use_module('../../kernel/base/options', [check_options/2]).
 :- use_module('../../kernel/wire',
               [endpoint_address/1, endpoint_post/3, mobile_term/1]).

@@ -8,7 +8,7 @@
 :- use_module('../../kernel/base/bounds', [space_used_up/1]).
 :- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../../kernel/base/server', [server_start/4, server_stop/1]).
-:- use_module('../../kernel/base/trees', [is_tree/2]).
+:- use_module('../../kernel/base/error_text', [is_tree/2]).
 :- use_module('../../kernel/program',
               [ fault_note/1, fault_noted/1, machine_inside/0, machine_run/3,
                 plain_goals/2 ]).

@@ -4,7 +4,7 @@
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
-:- use_module('../../kernel/base/trees', [is_tree/2]).
+:- use_module('../../kernel/base/error_text', [is_tree/2]).
 :- use_module('../../kernel/host', [context_now/2]).
 :- use_module('../../kernel/agent', [agent/5, life_payloads/2]).
 :- use_module(quota_agents, [quota_owned/3, quota_owner/3]).

@@ -9,8 +9,7 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/base/durable',
               [durable/5, durable_assertz/1, durable_drop/3, unit_of_work/1]).
-:- use_module('../../kernel/base/error_text',
-              [is_abort/1, print_error/2]).
+:- use_module('../../kernel/base/error_text', [is_abort/1, print_error/2]).
 :- use_module('../../kernel/wire',
               [ endpoint_address/1, endpoint_gone/1, endpoint_reply/2,
                 endpoint_request/4 ]).

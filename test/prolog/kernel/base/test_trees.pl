@@ -1,6 +1,6 @@
 :- module(test_trees, []).
 
-:- use_module('../../../../prolog/typhon/kernel/base/trees').
+:- use_module('../../../../prolog/typhon/kernel/base/error_text').
 :- use_module(library(plunit)).
 
 :- begin_tests(trees).

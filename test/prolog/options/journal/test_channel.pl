@@ -105,7 +105,7 @@ test(unacknowledged_posts_are_sent_to_the_successor) :-
     with_beta(Beta, Pid,
         ( listener(Beta, Id),
           stop_process(Pid),
-          wrap_predicate(typhon_messaging:endpoint_post(_, Kind, _), posted,
+          wrap_predicate(typhon_endpoint:endpoint_post(_, Kind, _), posted,
                          Wrapped, ( Wrapped, plunit_channel:hold(Kind) )),
           assertz(held),
           agent_send(Id, hello),

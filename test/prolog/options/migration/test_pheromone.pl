@@ -365,7 +365,7 @@ sent_by_peer(Left, Rest) :-
     get_time(Now),
     S = signal(flood(N), P, 1.0e9, 1, 1.0e9, Now, 1),
     peer_do(p, forall(between(1, 5000, N),
-                      typhon_messaging:endpoint_post(
+                      typhon_endpoint:endpoint_post(
                           Endpoint, pheromone,
                           pheromone(c, smelt(P, S))))),
     length(Long, 5000),
@@ -373,7 +373,7 @@ sent_by_peer(Left, Rest) :-
     Bad = [ smelt(d, S), smelt(P, none), smelt(P, signal(_, _, a, b, c, d, e)),
             smelt(P, signal(Long, P, 1, 1, 1.0e9, Now, 1)), x, withdrawn(1, _) ],
     capturing(( peer_do(p, forall(member(B, Bad),
-                                  typhon_messaging:endpoint_post(
+                                  typhon_endpoint:endpoint_post(
                                       Endpoint, pheromone, pheromone(c, B)))),
                 peer_do(p, remote(C, true)),
                 left_at(c, Left) ),
