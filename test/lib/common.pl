@@ -300,6 +300,8 @@ state_size(Module, Facts) :-
     aggregate_all(sum(N),
                   ( predicate_property(Module:Head, dynamic),
                     \+ predicate_property(Module:Head, imported_from(_)),
+                    functor(Head, Name, _),
+                    \+ sub_atom(Name, 0, _, _, '$wrap$'), % of wrap_predicate/4
                     predicate_property(Module:Head, number_of_clauses(N)) ),
                   Facts).
 

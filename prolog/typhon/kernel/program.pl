@@ -12,7 +12,7 @@ This is the interface of the layer: higher layers import from here.
               path_below/1, program_file/2, source_clause/2, source_same/1,
               source_terms/5 ]).
 :- reexport(program/libraries, [library_export/2]).
-:- reexport(program/programs).
+:- reexport('program/programs').
 :- reexport(program/places, [place/3]).
 :- reexport(program/code,
             [ code_install/3, code_receive/2, code_module/2, code_known/2,

@@ -9,7 +9,7 @@
 
 %   old(?Old, ?New): in 0.1.0 the setting had the name Old.
 
-old(typhon_connection:strangers, typhon_acceptor:unproved).
+old(typhon_acceptor:strangers, typhon_acceptor:unproved).
 old(typhon_auth:handshake_time, typhon_handshake:handshake_time).
 old(typhon_base_key_files:certificates, typhon_keys:certificates).
 old(typhon_carrier:rest_seconds, typhon_node_process:rest_seconds).
@@ -34,7 +34,7 @@ old(typhon_keeper:return_time, typhon_connection_manager:return_time).
 old(typhon_legacies:clones, typhon_outcomes:clones).
 old(typhon_legacies:legacies, typhon_outcomes:results).
 old(typhon_legacy:result_bytes, typhon_payloads:result_bytes).
-old(typhon_agents:faulty, typhon_creation:faulty).
+old(typhon_life:faulty, typhon_creation:faulty).
 old(typhon_named:met, typhon_questions:met).
 old(typhon_nxt_helper:python, typhon_nxt_link:python).
 old(typhon_overuse:pause, typhon_quota_enforcer:pause).

@@ -119,8 +119,10 @@ place_offer(Place, Service) :-
 %
 %   All agents on the host of Place may call PI, see service/1.
 
-%   service(+PIs): a directive in a file that is consulted into a place: all
-%   agents may call PIs, predicate indicators with commas between.
+%!  service(+PIs) is det.
+%
+%   A directive in a file that is consulted into a place: all agents may call
+%   PIs, predicate indicators with commas between.
 
 service(PIs) :-
     prolog_load_context(module, Place),

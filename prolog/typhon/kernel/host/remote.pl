@@ -78,7 +78,6 @@ host_unknown(Address) :-
     catch(process_ask(Endpoint, Address, hosting, hosts, Names, 10),
           error(_, _), fail),
     Names = [_|_],
-    !,
     atomic_list_concat(Names, ', ', Listed),
     atom_concat('there are: ', Listed, Text),
     throw(error(existence_error(host, Address), context(_, Text))).

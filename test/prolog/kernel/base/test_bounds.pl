@@ -40,13 +40,13 @@ most(Module, Bound, Most) :-
 test(tables_have_never_more_facts_than_their_bound,
      [ forall(( member(Bound, [50, 500]),
                 member(Module, [ typhon_whereabouts, typhon_outcomes,
-                                 typhon_whereabouts, typhon_questions ]),
+                                 typhon_questions ]),
                 test_bounds:most(Module, Bound, Bounds) )),
        true(( Most =< Bounds, Last > Bounds-max(2, Bound//50) )) ]) :-
     with_bounds(Bound, with_hosts([alpha], filled(Module, Most, Last))).
 test(lower_setting_holds_after_a_hundred_additions,
      [ forall(( member(Module, [ typhon_whereabouts, typhon_outcomes,
-                                 typhon_whereabouts, typhon_questions ]),
+                                 typhon_questions ]),
                 test_bounds:most(Module, 50, Bounds) )),
        true(Count =< Bounds) ]) :-
     with_hosts([alpha],

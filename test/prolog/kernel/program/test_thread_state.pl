@@ -118,6 +118,7 @@ refused(Goal) :-
              nospyall, debug, nodebug, leash(_), visible(_), tspy(_),
              set_breakpoint(_, _, _, _), abort, thread_exit(_), at_halt(_),
              on_signal(_, _, _), working_directory(_, '/'), umask(_, 0),
+             setlocale(ctype, _, 'C.UTF-8'),
              thread_detach(Me), cancel_halt(_), protocol(_), detach_IO,
              chdir('/'), set_stream(user_output, tty(false)),
              set_stream(_, alias(user_error)), redefine_system_predicate(_) ]).
