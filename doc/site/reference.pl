@@ -71,9 +71,9 @@ task(library, "Start networks, and read their logs", [typhon_network]).
 task(library, "Check programs", [typhon_checks]).
 task(library, "Create agents", [typhon_creation]).
 task(library, "Write to agents, and order them about",
-     [typhon_questions, typhon_administration:[agent_change/2]]).
+     [typhon_order_client, typhon_administration:[agent_change/2]]).
 task(library, "Wait for agents, and end them",
-     [typhon_ending, typhon_supervision, typhon_disposal]).
+     [typhon_join, typhon_supervision, typhon_disposal]).
 task(library, "Look into agents",
      [ typhon_environment, typhon_administration:[agent_property/2],
        typhon_source_view, typhon_trace, typhon_trails ]).

@@ -22,7 +22,7 @@
 
 /** <module> Orders are taken and obeyed
 
-An order that has found its agent, see typhon_questions, is noted in its
+An order that has found its agent, see typhon_order_client, is noted in its
 record. The agent takes it at its next effect. If a caller waits for the
 result, the order is noted as asked(Order, Asker).
 
@@ -61,7 +61,7 @@ at_once(dispose).
 %!  order_take(+Id, +Order) is semidet.
 %
 %   Take Order for Id.  Fails if Id is not in this process.  Besides the orders
-%   of typhon_questions there is evacuate(Host): end the agent if it is still
+%   of typhon_order_client there is evacuate(Host): end the agent if it is still
 %   on Host, of this process.
 
 order_take(Id, dispose) :-

@@ -214,7 +214,7 @@ arrives(request, agent, create(_:term, _:term, _:term, _:term), gate, none,
 asked(properties, watch, properties).
 asked(mailbox, watch, properties).
 asked(program, watch, properties).
-asked(results(_:name), watch, ending).
+asked(results(_:name), watch, join).
 asked(trail, watch, trail_verified).
 asked(step, orders, stepping).
 asked(dispose, orders, disposal).

@@ -31,7 +31,7 @@ it: a payload that has changed since is refused.
     typhon_host_parts:changeable/1,
     typhon_host_parts:part/4,
     typhon_options:declared/4,
-    typhon_questions:attach_order/2,
+    typhon_order_client:attach_order/2,
     typhon_orders:carried_out/3,
     typhon_payloads:mark/2,
     typhon_payloads:unmarked/2.
@@ -167,7 +167,7 @@ typhon_payloads:unmarked(Module, Name) :-
 
 %   The order to attach a payload carries its signature.
 
-typhon_questions:attach_order(Payload, attach(Payload, Signature)) :-
+typhon_order_client:attach_order(Payload, attach(Payload, Signature)) :-
     payload_signature(Payload, Signature).
 
 typhon_orders:carried_out(attach(Payload, Signature), Agent, ok) :-
