@@ -46,8 +46,8 @@ has received is a count of its own: it opens the window.
 A Token is `none`, `loose`, or the compound term of a hand-over, which becomes
 Number-Token.
 
-*Threading*: the mutex of the session guards its window: a caller holds it, but
-for those who only look: window_ahead/3, window_under_way/2, window_unacked/2,
+*Threading*: the mutex of the session guards its window: a caller holds it,
+except to read: window_ahead/3, window_under_way/2, window_unacked/2,
 window_received/2 and window_ack_due/2.  Of the others, window_count/2 is for
 the thread of the connection, without the mutex.
 */
