@@ -53,7 +53,7 @@
 Only this module changes these records.  An agent has
 
   - a module of its name with its state, see typhon_agent_module;
-  - a life, see typhon_agents;
+  - a life, see below;
   - a status, one of `ready`, `running`, sleeping(Until),
     waiting(Pattern, Until), `resident`, `held`, `resumed`, `obeying`,
     leaving(Host, At), transit(Host, Sent), cloning(Host, Sent) or

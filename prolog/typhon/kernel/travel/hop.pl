@@ -194,8 +194,7 @@ send(Transfer, Image0) :-
           not_sent(Formal, Transfer)).
 
 %   Without a journal the hop needs no answer: settlement of its frame means
-%   that it was accepted, see typhon_hop.  Fails if there is no
-%   connection.
+%   that it was accepted.  Fails if there is no connection.
 
 handed(Endpoint, hop(Name, Image0, Program), Transfer) :-
     image_held(Image0, Image),
