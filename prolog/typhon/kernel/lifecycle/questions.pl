@@ -319,11 +319,9 @@ named(Name, Id, Ended) :-
 last_called(Name, Id) :-
     member(Which, [ended, gone, ended_agent]),
     called(Name, Which, Ids),
-    last(Ids, Id),
-    !.
+    last(Ids, Id).
 last_called(Name, Id) :-
-    ended_elsewhere(Name, Id),
-    !.
+    ended_elsewhere(Name, Id).
 
 is_id(Agent) :-
     atom(Agent),

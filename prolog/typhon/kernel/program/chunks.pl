@@ -530,7 +530,6 @@ fresh(Variable, Term, N, Env) :-
 %   which is fast, and cannot fail either, if Number is an integer.
 
 added(Variable, Expression, N, Env, Number) :-
-    nonvar(Expression),
     ( Expression = Number+I ; Expression = Number-I ),
     var(Number),
     integer(I),
