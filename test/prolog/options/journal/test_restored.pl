@@ -7,6 +7,7 @@
 
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/fixtures', [capturing/2, was_printed/2]).
+:- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [foldl/4]).
 :- use_module(library(lists),
               [append/2, append/3, delete/3, member/2, numlist/3]).
@@ -18,6 +19,8 @@
 :- use_module(library(typhon/kernel/base/durable)).
 :- use_module(library(typhon/kernel/wire),
               [endpoint_address/1, endpoint_process/1]).
+:- use_module(library(typhon/kernel/travel/outcomes),
+              [clone_born/2, results_keep/2]).
 
 :- needs([journal]).
 
@@ -130,6 +133,25 @@ agents(Agents) :-
 
 %   The process has its id and its port again, not its number.
 
+test(what_was_forgotten_is_not_restored,
+     [ forall(forgotten(Kind, Setting, I, Add)), true(Kept =< 50) ]) :-
+    with_settings([Setting=50],
+        no_leaks(with_tmp_dir(kept(Kind, I, Add, Kept)))).
+
+forgotten(left, typhon_outcomes:results, I,
+          ( elsewhere(I, Id),
+            results_keep(Id, [result(I)]) )).
+forgotten(clone, typhon_outcomes:clones, I,
+          ( elsewhere(I, Id), clone_born(parent, Id) )).
+
+elsewhere(I, Id) :-
+    format(atom(Id), 'x.~d@far@127.0.0.1:1', [I]).
+
+kept(Kind, I, Add, Kept, Dir) :-
+    running(Dir, normal,
+            forall(between(1, 150, I), Add)),
+    running(Dir, normal,
+            aggregate_all(count, durable_dump(Kind, _, _, _), Kept)).
 test(process_keeps_its_id_and_its_port,
      [First, j] == [Second, Letter]) :-
     no_leaks(with_tmp_dir(itself(First, Second, Letter))).
