@@ -410,6 +410,17 @@ test(waiting_agents_do_not_count, O == done) :-
                  wait_state(S, sleeping),
                  create([main], A),
                  joined(A, O) )).
+test(arrivals_from_a_host_without_limit_wait) :-
+    with_queues(with_hosts([alpha-[concurrency(1)],beta],
+                           ( hold(1, Agents),
+                             began(1),
+                             create([(main :- receive(_), move(alpha),
+                                              test_host:in_turn)],
+                                    A, [host(beta)]),
+                             agent_send(A, go),
+                             wait_until(agent_property(A, host(alpha)), 10),
+                             began(0),
+                             go_on([A|Agents]) ))).
 test(faulty_agent_frees_its_turn, O == done) :-
     with_hosts([alpha-[concurrency(1)]],
                ( create([(main :- throw(x))], A0),
