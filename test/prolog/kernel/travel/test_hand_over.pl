@@ -21,15 +21,18 @@ lost or duplicated.
 :- meta_predicate with_under_way(+, -, 0).
 
 with_under_way(Facts, Id, Goal) :-
-    with_peers([a, b], ( set_under_way(Facts, Id), call(Goal) )).
+    with_peers([a, b], ( set_under_way(Facts, true, Id), call(Goal) )).
 
-set_under_way(Facts, Id) :-
+%   set_under_way(+Facts, :Change, -Id): b is suspended after Change.
+
+set_under_way(Facts, Change, Id) :-
     peer_host(a, A),
     peer_host(b, B),
     travel(a, [B, A], 4),               % connects, and brings no program of its
     visitor(Clauses),
     peer_agent(a, Clauses, [to(B)|Facts], Id),
     wait_until(peer_do(a, agent_property(Id, state(waiting))), 10),
+    call(Change),
     peer_signal(b, stop),
     peer_do(a, agent_send(Id, go)),
     wait_until(peer_do(a, handed_over(Id)), 10).
@@ -78,6 +81,18 @@ test(its_host_is_stopped_during_the_hop) :-
         ( peer_signal(b, cont),
           peer_do(a, host_stop(a)),
           peer_do(a, \+ agent_here(Id)) )).
+
+test(its_host_stops_and_it_is_refused, Outcome == disposed) :-
+    with_peers([a, b],
+        ( peer_do(a, host_start(other)),
+          peer_agent(a, [ (:- agent(rests, [])), (main :- receive(_)) ], [],
+                     Other),
+          set_under_way([], peer_do(b, host_change(b, tokens([red]))), Id),
+          peer_do(a, thread_create(host_stop(a), _, [alias(stops)])),
+          wait_until(peer_do(a, \+ agent_here(Other)), 10),
+          peer_signal(b, cont),
+          peer_do(a, thread_join(stops)),
+          peer_do(a, agent_join(Id, Outcome, 10)) )).
 
 :- end_tests(under_way).
 
