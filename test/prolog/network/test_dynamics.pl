@@ -1,14 +1,16 @@
 :- module(test_dynamics, []).
 :- use_module('../../lib/common').
+:- use_module('../../lib/fixtures', [capturing/2, was_printed/2]).
 :- use_module('../../lib/networks').
 :- use_module('../../lib/virtual_networks', [network_history/5]).
 :- use_module(library(plunit)).
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(apply), [foldl/4]).
+:- use_module(library(apply), [exclude/3, foldl/4]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists),
               [ append/3, max_list/2, member/2, min_list/2, nth1/3,
                 subtract/3, sum_list/2 ]).
+:- use_module(library(process), [process_kill/2]).
 :- use_module(library(typhon)).
 
 /** <module> Links that come and go
@@ -167,6 +169,28 @@ test(changes_occur_in_order_and_not_too_early) :-
     forall(nth1(I, Begun, Time-Change),
            ( nth1(I, Virtual, Due-Change),
              assertion(Time >= Due) )).
+
+test(changes_go_on_beside_dead_processes_without_warnings, Others == []) :-
+    with_tmp_dir(Dir,
+        ( directory_file_path(Dir, 'links.pl', File),
+          capturing(with_network(ring(6),
+                                 [ processes(6), clock(5000), seed(1),
+                                   dynamic(random_links), log(File, [links]) ],
+                                 Network, Hosts,
+                                 goes_on(Network, File, Hosts)),
+                    Messages) )),
+    exclude(subsumes_term(_-typhon(node_down(_, _, _, _, _))), Messages, Others).
+
+goes_on(Network, File, Hosts) :-
+    network_property(Network, processes([_, _|Pids])),
+    forall(member(Pid, Pids),
+           ( process_kill(Pid, kill),
+             wait_until(was_printed(_, typhon(node_down(Network, Pid, _, _, _))),
+                        10) )),
+    changed(File, Hosts, Before),
+    length(Before, Count),
+    wait_until(( changed(File, Hosts, Changes), length(Changes, Now),
+                 Now >= Count+20 ), 60).
 
 %   The initial links come first, on a slow machine after some time.
 

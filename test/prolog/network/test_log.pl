@@ -174,7 +174,8 @@ test(bad_options,
                      [ [file('/tmp/x'), colour(red)]-
                        domain_error(log_server_option, colour(red)),
                        []-existence_error(option, file),
-                       [file('/no/such/directory/events')]-_,
+                       [file('/no/such/directory/events')]-
+                       existence_error(directory, '/no/such/directory'),
                        [file('/proc/typhon_log')]-
                        permission_error(open, source_sink,
                                         '/proc/typhon_log') ])),
