@@ -126,6 +126,7 @@ invalid(ring(many), type_error(positive_integer, many)).
 invalid(torus(3), domain_error(topology, torus(3))).
 invalid(grid(3), domain_error(topology, grid(3))).
 invalid(random(5, 1.5), domain_error(probability, 1.5)).
+invalid(random(5, -0.1), domain_error(probability, -0.1)).
 invalid(random(5, p), type_error(number, p)).
 invalid(edges([]), domain_error(topology, edges([]))).
 invalid(edges([a]), type_error(edge, a)).
