@@ -89,28 +89,23 @@ topology_names(Topology, Names) :-
     ;   domain_error(topology, Topology)
     ).
 
-topology_size(star_bus(Arms, Len), N) :-
-    sizes([Arms, Len]),
-    N is Arms * Len.
-topology_size(line(N), N) :-
-    sizes([N]).
-topology_size(ring(N), N) :-
-    sizes([N]).
-topology_size(star(N), N) :-
-    sizes([N]).
-topology_size(tree(N), N) :-
-    sizes([N]).
-topology_size(grid(Rows, Cols), N) :-
-    sizes([Rows, Cols]),
-    N is Rows * Cols.
-topology_size(mesh(N), N) :-
-    sizes([N]).
-topology_size(random(N, P), N) :-
-    sizes([N]),
-    probability(P).
+topology_size(Topology, N) :-
+    dimensions(Topology, Sizes),
+    maplist(must_be(positive_integer), Sizes),
+    foldl(times, Sizes, 1, N).
 
-sizes(Sizes) :-
-    maplist(must_be(positive_integer), Sizes).
+times(X, Y0, Y) :-
+    Y is X*Y0.
+
+dimensions(star_bus(Arms, Len), [Arms, Len]).
+dimensions(line(N), [N]).
+dimensions(ring(N), [N]).
+dimensions(star(N), [N]).
+dimensions(tree(N), [N]).
+dimensions(grid(Rows, Cols), [Rows, Cols]).
+dimensions(mesh(N), [N]).
+dimensions(random(N, P), [N]) :-
+    probability(P).
 
 probability(P) :-
     must_be(number, P),

@@ -404,10 +404,12 @@ test(failed_host_start_stops_the_network_within_a_process,
                ( no_leaks(catch(network_start(ring(4), _, []), Error, true)),
                  \+ ( host_property(Host, state(_)), Host == n1 ) )),
     throw(Error).
-test(unreachable_machine,
-     error(system_error(process_ended(exit(1))))) :-
-    with_settings([typhon_children:ssh=false],
-                 network_start(ring(4), _, [machines([nowhere])])).
+test(unreachable_machine, Text == "A process of the network ended before \c
+                                   it was ready: exit(1)\n") :-
+    catch(with_settings([typhon_children:ssh=false],
+                        network_start(ring(4), _, [machines([nowhere])])),
+          Error, true),
+    message_text(Error, Text).
 
 %   The goal is the setup of a cleanup, with a signal pending.
 

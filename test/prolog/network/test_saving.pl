@@ -191,13 +191,35 @@ all_there(Network, File, Count, Sent) :-
 consistent(Options, File) :-
     with_network(mesh(5), Options, Network,
                  ( traffic(Network),
-                   forall(between(1, 6, _),
-                          ( pause(0.05), all_there(Network, File, 6, _) )) )),
+                   beside_another(Network, File,
+                       forall(between(1, 10, _),
+                              ( pause(0.05),
+                                all_there(Network, File, 6, _) ))) )),
     with_loaded_network(File, Again,
                         ( pause(0.3),
                           all_there(Again, File, 6, Sent),
                           wait_until(( all_there(Again, File, 6, More),
                                        More > Sent ), 20) )).
+
+%   beside_another(+Network, +File, :Goal): another thread saves meanwhile.
+
+:- meta_predicate beside_another(+, +, 0).
+
+beside_another(Network, File, Goal) :-
+    atom_concat(File, '.other', Other),
+    message_queue_create(Ends),
+    setup_call_cleanup(
+        thread_create(saves(Network, Other, Ends), Thread),
+        once(Goal),
+        ( thread_send_message(Ends, end), thread_join(Thread, true) )),
+    message_queue_destroy(Ends).
+
+saves(Network, File, Ends) :-
+    network_save(Network, File),
+    (   thread_peek_message(Ends, end)
+    ->  true
+    ;   saves(Network, File, Ends)
+    ).
 
 pause(Seconds) :-
     thread_self(Me),

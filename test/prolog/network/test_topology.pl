@@ -121,7 +121,10 @@ test(names, [forall(member(T, [ring(3), star(3)])), Names == [n1, n2, n3]]) :-
 
 invalid(_, instantiation_error).
 invalid(ring(_), instantiation_error).
-invalid(ring(0), type_error(positive_integer, 0)).
+invalid(Topology, type_error(positive_integer, 0)) :-
+    member(Topology, [ line(0), ring(0), star(0), tree(0), mesh(0),
+                       random(0, 0.5), grid(0, 2), grid(2, 0), star_bus(0, 2),
+                       star_bus(2, 0) ]).
 invalid(ring(many), type_error(positive_integer, many)).
 invalid(torus(3), domain_error(topology, torus(3))).
 invalid(grid(3), domain_error(topology, grid(3))).
@@ -134,7 +137,6 @@ invalid(edges([a-a]), domain_error(edge, a-a)).
 invalid(edges([1-n1]), domain_error(edge, 1-n1)).
 invalid(edges([a-"b"]), type_error(host_name, "b")).
 invalid(edges(a), type_error(list, a)).
-invalid(line(0), type_error(positive_integer, 0)).
 invalid(edges([a-cost(1)]), type_error(edge, a-cost(1))).
 invalid(edges([a-b-cost(x)]), type_error(number, x)).
 
