@@ -22,6 +22,12 @@ test(ten_thousand_hops_lose_and_duplicate_no_agent, Wrong == []) :-
                             crash(0.00003), kill(3), most(30) ],
                           Wrong)).
 
+%   No process is killed here, so each has to commit again by itself.
+
+test(processes_whose_files_may_not_grow_lose_no_agent, Wrong == []) :-
+    with_tmp_dir(attacked([ processes(2), agents(10), hops(50), crash(0),
+                            kill(0.4), faults([full]), most(6) ], Wrong)).
+
 %   Hosts stop and start again while agents hop and send, and each commit takes
 %   a while.
 

@@ -294,6 +294,7 @@ write_fails(Dir, Why) :-
 
 is_space('No space left on device').
 is_space('Disk quota exceeded').
+is_space('File too large').
 
 not_opened(Place, Why) :-
     throw(error(permission_error(open, journal, Place), context(_, Why))).

@@ -149,6 +149,7 @@ test(errors_of_the_disk_have_their_names,
      [ condition(disk_can_fail),
        forall(member(Call-Errors, [ 'write-28'-[space,none,none,[1,2,3]],
                                     'write-122'-[space,none,none,[1,2,3]],
+                                    'write-27'-[space,none,none,[1,2,3]],
                                     'fsync-5'-[unwritten,unwritten,none,_],
                                     'write-5'-[unwritten,unwritten,none,_] ])),
        true(Found = Errors) ]) :-
