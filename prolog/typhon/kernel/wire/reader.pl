@@ -22,11 +22,11 @@ Waking another thread costs as much as the rest of a hop.  So the thread that
 has read and counted a frame may run the agent that came in it, for an unknown
 time: as a goal of endpoint_afterwards/1.
 
-Meanwhile a token owns the connection, a message in a queue of the thread.  When
-the goal ends the thread takes the token back, and reads on.  If the goal takes
-long, the connection manager takes the token: then the session loses this
-connection and gets another one, with a thread of its own, and the lent thread
-no longer belongs to the wire.
+Meanwhile a token owns the connection, a fact.  When the goal ends the thread
+takes the token back, and reads on.  If the goal takes long, the connection
+manager takes the token: then the session loses this connection and gets another
+one, with a thread of its own, and the lent thread no longer belongs to the
+wire.
 
 A request to end a lent thread takes effect when the thread is back: its goal
 must not be interrupted for the sake of a connection.
@@ -72,6 +72,7 @@ thread that takes it first.
     damaged/4,                          % Key, Count, Which, Times: the last
                                         % damaged frame of a session
     lendable/3,                         % Thread, Queue, connection(...)
+    token/2,                            % Thread, Began: it is lent
     seen/3.                             % Thread, Began, Processor time
 
 :- multifile
@@ -372,7 +373,7 @@ lending_anew :-
     retractall(seen(_, _, _)).
 
 %   lending_open(+Session, +In, +Out, -Queue): prepare this thread to read. Its
-%   token goes to Queue.
+%   release is reported to Queue.
 
 lending_open(Session, In, Out, Queue) :-
     thread_self(Me),
@@ -418,7 +419,7 @@ lend(Queue, More, Flush) :-
     (   call(More)
     ->  nb_setval(typhon_lending, idle),
         leave(Goal, Flush)
-    ;   give(Queue),
+    ;   give,
         (   call(Goal, here)
         ->  take_back(Queue),
             call(Flush)
@@ -433,16 +434,20 @@ leave(Goal, Flush) :-
 
 %   From the first step on a request to end this thread is deferred.
 
-give(Queue) :-
+give :-
     nb_linkval(typhon_lending, lent),
     monotonic_time(Began),
-    thread_send_message(Queue, token(Began)),
+    thread_self(Me),
+    assertz(token(Me, Began)),
     check_if_needed.
 
-%   An overdue thread waits until its release is complete.
+%   An overdue thread waits until its release is complete.  The token is no
+%   message: to look for one that is gone is a wait that expires, see
+%   typhon_own_thread, and this runs in a cleanup handler, too.
 
 take_back(Queue) :-
-    (   thread_get_message(Queue, token(_), [timeout(0)])
+    thread_self(Me),
+    (   retract(token(Me, _))
     ->  nb_linkval(typhon_lending, idle)
     ;   sig_atomic(away(Queue))
     ).
@@ -516,7 +521,7 @@ check_lent :-
     ).
 
 lent_now(seen(Thread, Began, Work)) :-
-    lent_to(Thread, Began),
+    token(Thread, Began),
     (   seen(Thread, Began, Work0)
     ->  Work = Work0
     ;   worked(Thread, Work)
@@ -534,10 +539,6 @@ is_overdue(Now, seen(Thread, Began, Work0), Thread, Began) :-
 worked(Thread, Seconds) :-
     catch(thread_statistics(Thread, cputime, Seconds), error(_, _), fail).
 
-lent_to(Thread, Began) :-
-    lendable(Thread, Queue, _),
-    catch(thread_peek_message(Queue, token(Began)), error(_, _), fail).
-
                  /*******************************
                  *           RELEASE            *
                  *******************************/
@@ -548,7 +549,7 @@ lent_to(Thread, Began) :-
 %   connection is closed, it waits for the release.
 
 typhon_threads:overdue(Thread) :-
-    lent_to(Thread, Began),
+    token(Thread, Began),
     release(Thread, Began).
 
 release(Thread, Began) :-
@@ -558,10 +559,9 @@ release(Thread, Began) :-
     in_background(part(Thread, Connection), lender).
 
 released(Thread, Began, Connection) :-
-    lendable(Thread, Queue, Connection),
-    catch(thread_get_message(Queue, token(Began), [timeout(0)]),
-          error(_, _), fail),
+    retract(token(Thread, Began)),
     !,
+    lendable(Thread, Queue, Connection),
     call_cleanup(                       % Thread waits for this in any case
         forall(typhon_endpoint:lent(Thread), true),
         ( wire_thread_leaves(Thread),

@@ -179,6 +179,17 @@ test(handler_is_not_interrupted_by_the_connection) :-
                            goes_on(Queue, Thread),
                            said(Me, after) ))).
 
+%   Another signal is pending while this one takes effect.
+
+test(aborted_handler_leaves_no_thread, true(back(Thread))) :-
+    with_queue(Queue,
+               alone(Me, ( waits(Me, Queue, 1, Thread),
+                           wait_until(lent(Thread), 5),
+                           thread_signal(Thread,
+                                         ( thread_signal(Thread, true),
+                                           abort )),
+                           wait_until(gone(Thread), 5) ))).
+
 %   The errand goes on only after the stop.
 
 test(endpoint_stops_during_a_waiting_handler, true(lent(Thread))) :-
