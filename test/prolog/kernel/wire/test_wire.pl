@@ -316,12 +316,17 @@ test(large_frames_in_both_directions,
                        text-70 000-10, text-1 000 000-2 ])),
        Count == N ]) :-
     with_codec(Codec, cross(Size, N, Count)).
+
+%   A process that decodes such a frame answers no ping meanwhile.
+
 test(longest_frames, Count == 1) :-
     longest(Size),
-    with_endpoint(with_peers(1, [A],
-        ( ask(A, echo, x, x),
-          endpoint_peer:cross(A, Size, 1),
-          ask(A, count, x, Count) ))).
+    Patience = (typhon_reader:silence),
+    with_settings([Patience=60], with_endpoint(
+        with_peer_process([setup(set_setting(Patience, 60))], _, _, A,
+            ( ask(A, echo, x, x),
+              endpoint_peer:cross(A, Size, 1),
+              ask(A, count, x, Count) )))).
 test(answers_of_8_MB_at_once) :-
     fresh(with_peers(1, [A],
         ( endpoint_address(Me),
