@@ -19,7 +19,7 @@
                 image_label/2, image_module/3, life_hops/2,
                 with_agent/2 ]).
 :- use_module(hop, [taken_over/4]).
-:- use_module(whereabouts, [agent_heard_of/2, agent_outcome/2, agent_seen/4]).
+:- use_module(whereabouts, [agent_comes_anew/3, agent_seen/4]).
 :- use_module(mail, [post_waiting/2]).
 :- use_module(transfer, [transfer_let_go/4, transfer_over/2]).
 
@@ -186,14 +186,7 @@ repeated(Id, Hops) :-
     (   agent(Id, _, _, _, Life)
     ->  life_hops(Life, Hops0),
         Hops0 >= Hops
-    ;   gone_on(Id, Hops)
-    ).
-
-gone_on(Id, Hops) :-
-    (   agent_outcome(Id, _)
-    ->  true
-    ;   agent_heard_of(Id, Hops0),
-        Hops0 >= Hops
+    ;   \+ agent_comes_anew(Id, Hops, _)
     ).
 
 %   install(+Name, +Label, +Image, +From, -In, -Verdict): all or nothing; In is
@@ -242,7 +235,7 @@ overtaken(Id, Hops) :-
         ;   agent_status(Id, Status, _),
             Status \= transit(_, _)
         )
-    ;   gone_on(Id, Hops)
+    ;   \+ agent_comes_anew(Id, Hops, _)
     ).
 
 add_orders([], _).

@@ -83,7 +83,7 @@ agent; answers and taken_over/4 in the threads of the endpoint, which never wait
                 transfer_traveller/3, transfer_unreachable/1 ]).
 :- use_module(whereabouts,
               [ agent_born/2, agent_came/4, agent_comes_anew/3, agent_seen/4,
-                agent_went/5 ]).
+                agent_went/4 ]).
 
 :- multifile
     sent_again/2,                       % Endpoint, Id: the image is sent again, because
@@ -345,10 +345,10 @@ settled(Result, Transfer) :-
 %   The destination is noted before the agent is removed, and mail that came
 %   meanwhile is sent before any that comes later.
 
-moved_on(Id, dest(Address, _, Endpoint), Hops, Host, Since) :-
+moved_on(Id, dest(Address, _, _), Hops, Host, Since) :-
     agent_under_way(Id, Hops, Host, _, way(_, Since), Frame),
     endpoint_hand_to(Frame, Process),
-    agent_went(Id, Address, Hops, Endpoint, Process),
+    agent_went(Id, Address, Hops, Process),
     agent_gone(Id, Hops, Mail),
     post_on(Id, Mail).
 

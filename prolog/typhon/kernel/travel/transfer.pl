@@ -72,8 +72,8 @@ resolve_in_doubt/1 in reader threads, which never wait; ask_peers/2 in a worker.
 :- use_module(mail, [post_on/2]).
 :- use_module(outcomes, [clone_unborn/2]).
 :- use_module(whereabouts,
-              [ agent_ended/4, agent_heard_of/2, agent_last_seen/2,
-                agent_left/4, agent_left_noted/4, agent_outcome/2 ]).
+              [ agent_comes_anew/3, agent_ended/4, agent_left/4,
+                agent_left_noted/4, agent_location/4 ]).
 
 :- setting(typhon_in_doubt:shown_seconds, number, 3,
            "Seconds under way after which an agent is shown as in doubt").
@@ -531,21 +531,17 @@ typhon_endpoint:requested(whereabouts, reached(Id, Hops), _, ReplyTo) :-
     reached(Id, Hops, Reached),
     endpoint_reply(ReplyTo, Reached).
 
-%   The tables are read in this order because an agent that leaves or ends
-%   meanwhile is noted in the later ones before it is removed from the first.
+%   An agent that leaves or ends meanwhile is noted before it is removed.
 
 reached(Id, Hops, true) :-
-    (   hops_here(Id, Hops0)
-    ;   agent_heard_of(Id, Hops0)
+    (   hops_here(Id, Hops0),
+        Hops0 >= Hops
+    ;   \+ agent_comes_anew(Id, Hops, _)
     ),
-    Hops0 >= Hops,
-    !.
-reached(Id, _, true) :-
-    agent_outcome(Id, _),
     !.
 reached(Id, _, false) :-
     (   hops_here(Id, _)
-    ;   agent_last_seen(Id, _)
+    ;   agent_location(Id, _, _, _)
     ),
     !.
 reached(_, _, unknown).

@@ -8,7 +8,7 @@
             agent_seen/4,               % +Id, +Address, +Hops, +Peer
             agent_came/4,               % +Id, +Address, +Hops, +Peer
             agent_left/4,               % +Id, +Address, +Hops, +Peer
-            agent_went/5,               % +Id, +Address, +Hops, +Peer, +Process
+            agent_went/4,               % +Id, +Address, +Hops, +Process
             agent_left_noted/4,         % +Id, +Address, +Hops, +Peer
             agent_ends/2,               % +Id, +Hops
             ended_agent/1,              % ?Id
@@ -17,8 +17,7 @@
                                         % +Hops
             agent_resumed/3,            % +Id, +Stamp, +Hops
             agent_resumed_from/3,       % +Id, +Stamp, +Hops
-            agent_heard_of/2,           % +Id, -Hops
-            agent_last_seen/2,          % +Id, -Hops
+            agent_location/4,           % +Id, -Address, -Hops, -Process
             agent_comes_anew/3,         % +Id, +Hops, -Home
             whereabouts/2               % +Id, -Address
           ]).
@@ -40,8 +39,7 @@ doubt may ask whether its agent arrived.
 An agent is in a process, not at an address: if another process has the address
 now, the agent has ended with the process that had it before, or has moved on.
 
-*Threading*: any thread; a mutex for the records of the home, one for forwarding
-addresses.  A courier sends news to the home, since that may have to connect.
+*Threading*: any thread; one mutex for all changes of locations.  A courier sends news to the home, since that may have to connect.
 */
 
 :- use_module(library(apply), [include/3, maplist/2]).
@@ -119,11 +117,7 @@ typhon_bounds:forgotten(forward(Id, _, _, _)) :-
 %   Record that Id was born on the host Address of this process.
 
 agent_born(Id, Address) :-
-    put_born(Id, Address, 0, here).
-
-put_born(Id, Address, Hops, Process) :-
-    durable_put(born, Id, 0, born(Address, Hops, Process)),
-    assertz(born(Id, Address, Hops, Process)).
+    put_born(birth, Id, Address, 0, here).
 
 %   After a restore another process may have the address.
 
@@ -176,55 +170,56 @@ home_agents_at(Endpoint, Ids) :-
 agent_outcome(Id, Outcome) :-
     outcome(Id, Outcome, _).
 
-%   ended_after(+Id, -Hops): Id, whose home is here, has ended after Hops hops.
-
-ended_after(Id, Hops) :-
-    outcome(Id, _, Hops).
-
 %   home_moved(+Id, +Address, +Hops, +Process): record that Id has gone to
 %   Address, in Process, by hop number Hops.
 
 home_moved(Id, Address, Hops, Process) :-
     debug(typhon(hop), '~w hop ~D: home records that it is on ~w',
           [Id, Hops, Address]),
-    with_mutex(typhon_born, moved(Id, Address, Hops, Process)).
+    with_mutex(typhon_born, located(Id, Address, Hops, Process, news)).
 
-%   home_left(+Id, +Address, +Hops, +Process): as home_moved/4, for an agent
-%   that has left this process; the caller notes it in the journal. Fails if
-%   the home does not know the agent, or has newer news.
+%   located(+Id, +Address, +Hops, +Process, +By): By is `news`, or `leaving` if
+%   Id has left this process; then the caller notes it in the journal.
+%
+%   A new fact is added before the old one is removed, because other threads
+%   read meanwhile.  An agent without a fact was born before its home was
+%   restarted, or ended here: the end notice may overtake the arrival notice,
+%   and an end after fewer hops is that of a copy that was given up in doubt.
 
-home_left(Id, Address, Hops, Process) :-
-    with_mutex(typhon_born, left(Id, Address, Hops, Process)).
-
-left(Id, Address, Hops, Process) :-
-    born(Id, _, Hops0, _),
-    !,
-    Hops0 < Hops,
-    assertz(born(Id, Address, Hops, Process)),
-    forget_first(Id).
-
-%   Adds the new fact before it removes the old one, because other threads read
-%   meanwhile.  An agent without a fact was born before the home was restarted.
-
-moved(Id, Address, Hops, Process) :-
+located(Id, Address, Hops, Process, By) :-
     born(Id, _, Hops0, _),
     !,
     (   Hops0 < Hops
-    ->  put_born(Id, Address, Hops, Process),
-        forget_first(Id)
+    ->  put_born(By, Id, Address, Hops, Process),
+        once(retract(born(Id, _, _, _)))
     ;   true
     ).
-moved(Id, Address, Hops, Process) :-
+located(Id, Address, Hops, Process, By) :-
     \+ outcome(Id, _, _),
     agent_home_endpoint(Id, Home),
     endpoint_address(Home),
     !,
-    put_born(Id, Address, Hops, Process).
-moved(_, _, _, _).
+    put_born(By, Id, Address, Hops, Process).
+located(Id, Address, Hops, Process, leaving) :-
+    \+ ( ( forward(Id, _, Known, _) ; outcome(Id, _, Known) ),
+         Known >= Hops ),
+    !,
+    bounded(forward(_, _, _, _), typhon_whereabouts:forwards,
+            put_forward(Id, Address, Hops, Process)).
+located(_, _, _, _, _).
 
-forget_first(Id) :-
-    retract(born(Id, _, _, _)),
-    !.
+put_born(By, Id, Address, Hops, Process) :-
+    (   By == leaving
+    ->  true
+    ;   durable_put(born, Id, 0, born(Address, Hops, Process))
+    ),
+    assertz(born(Id, Address, Hops, Process)).
+
+put_forward(Id, Address, Hops, Process) :-
+    assertz(forward(Id, Address, Hops, Process)),
+    ignore(( forward(Id, _, Hops0, _),
+             Hops0 < Hops,
+             retract(forward(Id, _, Hops0, _)) )).
 
 %   home_ended(+Id, +Outcome, +Hops, +Results:list): record that Id has ended
 %   after Hops hops, with Results.
@@ -245,7 +240,6 @@ ended(Id, _, Hops, _, []) :-
     ),
     !.
 ended(Id, Outcome0, Hops, Results, Askers) :-
-    retractall(born(Id, _, _, _)),
     durable_drop(born, Id, 0),
     durable_drop(agent, Id, 0),
     durable_drop(faulty, Id, 0),
@@ -256,6 +250,7 @@ ended(Id, Outcome0, Hops, Results, Askers) :-
     ( Results == [] -> true ; results_keep(Id, Results) ),
     bounded(outcome(_, _, _), typhon_whereabouts:outcomes,
             durable_assertz(outcome(Id, Outcome, Hops))),
+    retractall(born(Id, _, _, _)),
     waiters(Id, Askers).
 
 %   An agent that is disposed of while faulty ends with the outcome of its
@@ -275,7 +270,7 @@ home_faulty(Id, Outcome, Stamp, Address, Hops, Process) :-
     debug(typhon(agent), '~w: home records that it is faulty, ~p',
           [Id, Outcome]),
     with_mutex(typhon_born,
-               ( moved(Id, Address, Hops, Process),
+               ( located(Id, Address, Hops, Process, news),
                  has_fault(Id, Outcome, Stamp, Hops, Askers) )),
     forall(member(Asker, Askers), send_outcome(Asker, Outcome)).
 
@@ -422,37 +417,15 @@ agent_left(Id, Address, Hops, Peer) :-
     (   endpoint_address(Peer)
     ->  true
     ;   process_at(Peer, Process),
-        agent_went(Id, Address, Hops, Peer, Process)
+        agent_went(Id, Address, Hops, Process)
     ).
 
-%!  agent_went(+Id, +Address, +Hops, +Peer, +Process) is det.
+%!  agent_went(+Id, +Address, +Hops, +Process) is det.
 %
-%   As agent_left/4; Process is the process at Peer.
+%   As agent_left/4; Process is the process of Address, another one.
 
-agent_went(Id, Address, Hops, _, Process) :-
-    home_left(Id, Address, Hops, Process),
-    !.
-agent_went(Id, Address, Hops, Peer, Process) :-
-    agent_home_endpoint(Id, Home),
-    (   endpoint_address(Home)
-    ->  left_home(Id, Address, Hops, Process)
-    ;   endpoint_address(Peer)
-    ->  true
-    ;   remember_forward(Id, Address, Hops, Process)
-    ).
-
-%   The end notice may overtake the arrival notice: a forwarding address would
-%   then lead back here.  An end after fewer hops is that of a copy that was
-%   given up in doubt.
-
-left_home(Id, Address, Hops, Process) :-
-    (   ended_after(Id, End)
-    ->  (   End >= Hops
-        ->  true
-        ;   remember_forward(Id, Address, Hops, Process)
-        )
-    ;   home_moved(Id, Address, Hops, Process)
-    ).
+agent_went(Id, Address, Hops, Process) :-
+    with_mutex(typhon_born, located(Id, Address, Hops, Process, leaving)).
 
 process_at(Endpoint, Process) :-
     (   endpoint_peer(Endpoint, process(Process0))
@@ -480,31 +453,7 @@ agent_left_noted(Id, Address, Hops, Peer) :-
 
 :- durable(agent, Id, 0, gone(Address, Hops, Process),
            forward(Id, Address, Hops, Process),
-           forward_restore(Id, Address, Hops, Process)).
-
-forward_restore(Id, Address, Hops, Process) :-
-    agent_home_endpoint(Id, Home),
-    (   agent_outcome(Id, _)
-    ->  true
-    ;   home_left(Id, Address, Hops, Process)
-    ->  true
-    ;   endpoint_address(Home)
-    ->  home_moved(Id, Address, Hops, Process)
-    ;   assertz(forward(Id, Address, Hops, Process))
-    ).
-
-remember_forward(Id, Address, Hops, Process) :-
-    bounded(forward(_, _, _, _), typhon_whereabouts:forwards,
-            with_mutex(typhon_forward,
-                       put_forward(Id, Address, Hops, Process))).
-
-put_forward(Id, Address, Hops, Process) :-
-    forward(Id, _, _, _),
-    !,
-    assertz(forward(Id, Address, Hops, Process)),
-    once(retract(forward(Id, _, _, _))).
-put_forward(Id, Address, Hops, Process) :-
-    assertz(forward(Id, Address, Hops, Process)).
+           agent_went(Id, Address, Hops, Process)).
 
 %!  agent_ends(+Id, +Hops) is det.
 %
@@ -610,36 +559,35 @@ error:has_type(typhon_payloads, Item) :-
                 *           QUESTIONS          *
                 *******************************/
 
-%!  agent_heard_of(+Id, -Hops) is nondet.
+%!  agent_location(+Id, -Address, -Hops, -Process) is nondet.
 %
-%   Id, which is not in this process, has made at least Hops hops.
+%   As far as this process knows, Id, which is not in it, went to Address, in
+%   Process, by hop number Hops, and has not ended.
 
-agent_heard_of(Id, Hops) :-
-    agent_last_seen(Id, Hops).
-agent_heard_of(Id, Hops) :-
-    ended_here(Id, Hops).
-
-%!  agent_last_seen(+Id, -Hops) is nondet.
-%
-%   As agent_heard_of/2, for agents that have not ended here.
-
-agent_last_seen(Id, Hops) :-
-    last_seen(Id, _, Hops, _).
+agent_location(Id, Address, Hops, Process) :-
+    forward(Id, Address, Hops, Process).
+agent_location(Id, Address, Hops, Process) :-
+    home_knows(Id, Address, Hops, Process).
 
 %!  agent_comes_anew(+Id, +Hops, -Home) is semidet.
 %
 %   As far as this process knows, Id, which is not in it, has not made Hops hops
-%   before.  Home is `here` if Id was born in this process, else `elsewhere`.
+%   before, and has not ended.  Home is `here` if Id was born in this process,
+%   else `elsewhere`.  The tables are read in this order because an agent that
+%   ends meanwhile is noted in the later ones before it is removed from the
+%   first.
 
 agent_comes_anew(Id, Hops, Home) :-
-    home_knows(Id, _, Hops0, _),
-    !,
-    Hops0 < Hops,
-    Home = here.
-agent_comes_anew(Id, Hops, elsewhere) :-
-    \+ agent_outcome(Id, _),
-    \+ ( ( forward(Id, _, Hops0, _) ; ended_here(Id, Hops0) ),
-         Hops0 >= Hops ).
+    \+ ( made_hops(Id, Made), Made >= Hops ),
+    \+ outcome(Id, _, _),
+    ( born(Id, _, _, _) -> Home = here ; Home = elsewhere ).
+
+made_hops(Id, Hops) :-
+    born(Id, _, Hops, _).
+made_hops(Id, Hops) :-
+    forward(Id, _, Hops, _).
+made_hops(Id, Hops) :-
+    ended_here(Id, Hops).
 
 %!  whereabouts(+Id, -Address) is semidet.
 %
@@ -647,15 +595,10 @@ agent_comes_anew(Id, Hops, elsewhere) :-
 %   Fails if the process to which the agent went is gone.
 
 whereabouts(Id, Address) :-
-    last_seen(Id, Address0, _, Process),
+    agent_location(Id, Address0, _, Process),
     lives(Address0, Process),
     !,
     Address = Address0.
-
-last_seen(Id, Address, Hops, Process) :-
-    forward(Id, Address, Hops, Process).
-last_seen(Id, Address, Hops, Process) :-
-    home_knows(Id, Address, Hops, Process).
 
 lives(_, Process) :-
     memberchk(Process, [here, unknown]),
