@@ -15,7 +15,7 @@ This is the interface of the layer: higher layers import from here.
               agent_put/3, agent_put_life/2, agent_ready/2, agent_remove/2,
               agent_rest/3, agent_rests/3, agent_runs/1, agent_status/3,
               agent_take/3, agent_thawed/5, agent_under_way/6, agent_wakes/2,
-              is_life/1, life_before/2, life_came/2, life_clone/3,
+              is_life/1, life_before/2, life_clone/3,
               life_extras/2, life_goes/3, life_hop/3, life_hops/2,
               life_may_move/2, life_parent/2, life_payloads/2, make_life/5,
               set_extras_of_life/3, state_destroy/2 ]).

@@ -4,6 +4,12 @@
             image_clone/5,              % +Id, +CloneId, +Goals, +Since, -Image
             image_hash/2,               % +Image, -Hash
             image_held/2,               % +Image, -Held
+            image_handed/7,             % ?Id-Hash, ?Life, ?State, ?Held, ?Mail,
+                                        % ?Since, ?Image
+            image_filled/2,             % +Image0, -Image
+            image_plain/8,              % +Image, -Id, -Hash, -Life, -Hops,
+                                        % -Clauses, -Goals, -Since
+            image_life/2,               % +Image, -Life
             image_label/2,              % +Image, -Label
             image_entrant/2,            % +Image, -Entrant
             image_amended/5,            % +Phase, +Host, +Where, +Image0,
@@ -22,8 +28,8 @@
 :- use_module('../wire', []).
 :- use_module('../host', [amended/5, event_subscribed/1, host/3, parts/3]).
 :- use_module(agents,
-              [ agent/5, agent_enter/3, agent_mail/2, is_life/1, life_clone/3,
-                life_hop/3, life_hops/2 ]).
+              [ agent/5, agent_enter/3, agent_mail/2, is_life/1, life_came/2,
+                life_clone/3, life_hop/3, life_hops/2 ]).
 :- use_module(agent_module, [agent_build/5, agent_state/2]).
 :- use_module('../base/text', [is_printable/1]).
 :- use_module(identity, [agent_home/2, origin_inherited/3]).
@@ -112,6 +118,54 @@ image_hash(image(_, Hash, _, _, _, _, _), Hash).
 
 image_held(image(Id, Hash, Life, State, Goals, Mail, Start),
            image(Id, Hash, Life, State, true-Goals, Mail, Start)).
+
+%!  image_handed(?Agent, ?Life, ?State, ?Held, ?Mail, ?Since, ?Image) is det.
+%
+%   Image is that of an agent that is handed over: Agent is Id-Hash, Held is
+%   Hole-Goals.
+
+image_handed(Id-Hash, Life, State, Hole-Goals, Mail, Since,
+             image(Id, Hash, Life, State, Hole-Goals, Mail, Since)).
+
+%!  image_filled(+Image0, -Image) is det.
+%
+%   The hole of an agent that was handed over, if Image0 is its image, is filled.
+
+image_filled(image(Id, Hash, Life, State, Hole-Goals, Mail, Start), Image) :-
+    !,
+    Hole = true,
+    Image = image(Id, Hash, Life, State, Goals, Mail, Start).
+image_filled(Image, Image).
+
+%!  image_plain(+Image, -Id, -Hash, -Life, -Hops, -Clauses, -Goals, -Since)
+%!      is semidet.
+%
+%   Image, any term, is that of an agent without messages and extras that was
+%   handed over.
+
+image_plain(image(Id, Hash, Life, State, Hole-Goals, Mail, Since), Id, Hash,
+            Life, Hops, Clauses, Goals, Since) :-
+    Mail == [],
+    atom(Id),
+    sub_atom(Id, _, _, _, @),
+    !,
+    atom(Hash),
+    number(Since),
+    is_list(Goals),
+    life_came(Life, Hops),
+    nonvar(State),
+    State = state(Empty, Clauses),
+    Empty == [],
+    is_list(Clauses),
+    Hole = true.
+
+%!  image_life(+Image, -Life) is semidet.
+%
+%   Life may be any term, as Image may.
+
+image_life(Image, Life) :-
+    subsumes_term(image(_, _, _, _, _, _, _), Image),
+    Image = image(_, _, Life, _, _, _, _).
 
 %!  image_label(+Image, -Label) is det.
 %

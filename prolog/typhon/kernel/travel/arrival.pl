@@ -16,8 +16,8 @@
               [ agent/5, agent_extras_load/1, agent_extras_missing/1,
                 agent_here/5, agent_order/2, agent_status/3, gate/4,
                 gate_refused/4, image_amended/5, image_enter/4, image_entrant/2,
-                image_label/2, image_module/3, life_hops/2,
-                with_agent/2 ]).
+                image_filled/2, image_label/2, image_life/2, image_module/3,
+                life_hops/2, with_agent/2 ]).
 :- use_module(hop, [taken_over/4]).
 :- use_module(whereabouts, [agent_comes_anew/3, agent_seen/4]).
 :- use_module(mail, [post_waiting/2]).
@@ -55,7 +55,7 @@ typhon_endpoint:handed(hop, hop(Name, Image, Program), Peer, Verdict) :-
     ->  Verdict = accepted
     ;   extras_missing(Image)
     ->  Verdict = deferred
-    ;   fill_hole(Image, Whole),
+    ;   image_filled(Image, Whole),
         arrived(Name, Whole, Program, none, Peer, Answer),
         hand_verdict(Answer, Name, Verdict)
     ).
@@ -64,15 +64,6 @@ hand_verdict(installed(Id), Name, accepted) :-
     !,
     endpoint_afterwards(go_on(Name, Id)).
 hand_verdict(Answer, _, Answer).
-
-%   fill_hole(+Image0, -Image): an agent that was handed over has an unbound
-%   hole.
-
-fill_hole(image(Id, Hash, Life, State, Hole-Goals, Mail, Start), Image) :-
-    !,
-    Hole = true,
-    Image = image(Id, Hash, Life, State, Goals, Mail, Start).
-fill_hole(Image, Image).
 
 typhon_endpoint:requested(hop, Hop, Peer, ReplyTo) :-
     (   arg(2, Hop, Image),
@@ -83,7 +74,7 @@ typhon_endpoint:requested(hop, Hop, Peer, ReplyTo) :-
     ).
 
 take(hop(Name, Image0, Program), Peer, ReplyTo) :-
-    fill_hole(Image0, Image),
+    image_filled(Image0, Image),
     arrived(Name, Image, Program, none, Peer, Answer),
     answer(Answer, Name, ReplyTo).
 take(hop(Name, Image, Program, Label), Peer, ReplyTo) :-
@@ -94,14 +85,13 @@ take(hop(Name, Image, Program, Label), Peer, ReplyTo) :-
     ).
 
 extras_missing(Image) :-
-    subsumes_term(image(_, _, _, _, _, _, _), Image),
-    arg(3, Image, Life),
+    image_life(Image, Life),
     agent_extras_missing(Life).
 
 :- public load_and_take/4.              % goal of a worker
 
 load_and_take(Image, Hop, Peer, ReplyTo) :-
-    arg(3, Image, Life),
+    image_life(Image, Life),
     catch(agent_extras_load(Life), error(Formal, Context),
           print_error(error, error(Formal, Context))),
     take(Hop, Peer, ReplyTo).

@@ -57,8 +57,8 @@ agent; answers and taken_over/4 in the threads of the endpoint, which never wait
                 agent_put/3, agent_ready/2, agent_relink/2, agent_runs/1,
                 agent_state/2, agent_state_mobile/3, agent_status/3,
                 agent_thawed/5, agent_under_way/6, gate/4, image_amended/5,
-                image_hash/2, image_held/2, life_before/2, life_came/2,
-                life_goes/3, life_hop/3, mail_all/2, mail_back/2,
+                image_handed/7, image_hash/2, image_held/2, image_plain/8,
+                life_before/2, life_goes/3, life_hop/3, mail_all/2, mail_back/2,
                 mail_waits/1, program_missing/2, program_sent/3, with_agent/2 ]).
 :- use_module('../base/durable',
               [commits_must_succeed/0, crash_point/1, durable_on/0]).
@@ -291,8 +291,8 @@ hand_over(Id, Host, remote(Address, Name, Endpoint), Hole, Goals) :-
     ;   Mail = []
     ),
     plain_goals(Goals, Plain),
-    (   framed(Endpoint, Name, Hash,
-               image(Id, Hash, Life, State, Hole-Plain, Mail, Since), Frame),
+    image_handed(Id-Hash, Life, State, Hole-Plain, Mail, Since, Image),
+    (   framed(Endpoint, Name, Hash, Image, Frame),
         Transfer = hop(Id, dest(Address, Name, Endpoint), Hops),
         sig_atomic(with_agent(Id, leave(Transfer, Since, Frame)))
     ->  debug(typhon(hop), '~w hop ~D: leaves for ~w', [Id, Hops, Address])
@@ -366,7 +366,7 @@ thawed(Id) :-
     agent_under_way(Id, Hops, Host, _, way(Dest, Since), Frame),
     !,
     endpoint_handed(Frame, hop(_, Image, _)),
-    Image = image(Id, Hash, Life1, State, Hole-Goals0, Mail, _),
+    image_handed(Id-Hash, Life1, State, Hole-Goals0, Mail, _, Image),
     life_before(Life1, Life0),
     host(Host, _, Place),
     agent_build(Id, Place, Hash, State-Goals0, Module-Goals),
@@ -390,7 +390,7 @@ taken_over(Host, Image, known, Peer) :-
     atom(Host),
     host_plain(Host, Plain),
     \+ event_subscribed(hops),
-    is_plain_image(Image, Id, Hash, Life, Hops, Clauses, Goals, Since),
+    image_plain(Image, Id, Hash, Life, Hops, Clauses, Goals, Since),
     code_compiled(Hash, Program),
     arg(1, Plain, Address),
     with_agent(Id, install(Id, Hops, Host-Plain, Hash-Program, Life, Clauses,
@@ -403,24 +403,6 @@ taken_over(Host, Image, known, Peer) :-
     ;   agent_came(Id, Address, Hops, Peer)
     ),
     endpoint_afterwards(go_on(Id, Host-Hash, context(Program, Id), Goals)).
-
-%   Image is that of an agent without messages and extras.
-
-is_plain_image(image(Id, Hash, Life, State, Hole-Goals, Mail, Since), Id,
-               Hash, Life, Hops, Clauses, Goals, Since) :-
-    Mail == [],
-    atom(Id),
-    sub_atom(Id, _, _, _, @),
-    !,
-    atom(Hash),
-    number(Since),
-    is_list(Goals),
-    life_came(Life, Hops),
-    nonvar(State),
-    State = state(Empty, Clauses),
-    Empty == [],
-    is_list(Clauses),
-    Hole = true.
 
 %   Signals are deferred, see reader.pl: none interrupts these steps.
 
