@@ -22,9 +22,8 @@ Each address that is wanted has an attempt, which ends when a session is up,
 whichever side made its connection. Its state is
 
     queued                  it begins when few others are young
-    trying(Thread, Start, Asked, Until)
-                            Thread has tried since Start, and is late at Until;
-                            Asked is the number of the next caller then
+    trying(Thread, Start, Until)
+                            Thread has tried since Start, and is late at Until
     pausing(Until)          the next try begins at Until
     idle(Until)             the same, when a session needs it, but no caller
 
@@ -35,8 +34,8 @@ unless a process is expected there soon.
 
 Threads and requests that wait for a connection to an address wait in order. A
 thread waits at a queue of its own, and receives `met` or `missed`. A request
-holds no thread: it is sent, or answered. All are numbered: the result of an
-attempt to connect does not concern those that came after it began.
+holds no thread: it is sent, or answered. The result of a try does not concern
+those that came after its start.
 
 *Threading*: manage/3 runs in the thread of the server, which owns the tables
 but waiting/3, and makes the attempts. Other threads send it messages by
@@ -87,7 +86,7 @@ flushes are for any thread that may wait.
     errand/2,                           % Time, Goal
     attempt/4,                          % Address, State, Pause: the next one,
                                         % First: time of the first try
-    waiting/3.                          % Address, Number, What: thread(Queue),
+    waiting/3.                          % Address, Since, What: thread(Queue),
                                         % request(Kind, Term, OnAnswer)
 
 :- multifile
@@ -116,7 +115,7 @@ manager_end :-
 manage(stop, _, _) :-
     !,
     waiting_missed(_, inf),
-    attempts_end,
+    retractall(attempt(_, _, _, _)),
     retractall(resting(_)),
     run_errands(inf).
 manage(Message, Me, until(Time, Me)) :-
@@ -234,7 +233,7 @@ part(Session) :-
 address_wanted(Address) :-
     (   route_up(Address, Session)
     ->  waiting_met(Address, Session)
-    ;   waiting_first(Address, _)
+    ;   waiting(Address, _, _)
     ->  attempt_want(Address)
     ;   true
     ).
@@ -264,7 +263,7 @@ session_reconnect(Session) :-
 %   A caller waits for Address, or a session needs it.
 
 needed(Address) :-
-    waiting_first(Address, _),
+    waiting(Address, _, _),
     !.
 needed(Address) :-
     route(Address, Session),
@@ -340,7 +339,7 @@ crowded :-
 young(Until) :-
     crowd_seconds(Seconds),
     monotonic_time(Now),
-    attempt(_, trying(_, Start, _, _), _, _),
+    attempt(_, trying(_, Start, _), _, _),
     Until is Start+Seconds,
     Until > Now.
 
@@ -350,11 +349,10 @@ try(Address, First, Me) :-
     attempt(Address, _, Pause, _),
     monotonic_time(Start),
     late_at(Start, Until),
-    waiting_number(Asked),
     catch(wire_thread_create(outgoing(Address, Me), out-Address, Thread),
           error(Formal, _),
           Thread = none),
-    attempt_set(Address, trying(Thread, Start, Asked, Until), Pause, First),
+    attempt_set(Address, trying(Thread, Start, Until), Pause, First),
     debug(typhon(connect), '~w: trying, in ~w', [Address, Thread]),
     (   Thread == none
     ->  failed(Address, Formal)
@@ -373,12 +371,12 @@ late_at(Start, Until) :-
 %   again, unless many tries have failed.
 
 attempt_greeted(Thread) :-
-    (   attempt(Address, trying(Thread, Start, Asked, _), Pause, _),
+    (   attempt(Address, trying(Thread, Start, _), Pause, _),
         longest_pause(Longest),
         Pause < Longest
     ->  monotonic_time(Now),
         late_at(Now, Until),
-        attempt_set(Address, trying(Thread, Start, Asked, Until), Pause, Now)
+        attempt_set(Address, trying(Thread, Start, Until), Pause, Now)
     ;   true
     ).
 
@@ -386,7 +384,7 @@ attempt_greeted(Thread) :-
 %   without a connection.
 
 attempt_ended(Thread, Formal) :-
-    (   attempt(Address, trying(Thread, _, _, _), _, _)
+    (   attempt(Address, trying(Thread, _, _), _, _)
     ->  failed(Address, Formal)
     ;   true
     ).
@@ -409,14 +407,9 @@ attempts_due(Me) :-
             All),
     forall(member(Address-State, All), due(State, Address, Me)).
 
-%   attempts_end: forget all attempts: the endpoint stops.
-
-attempts_end :-
-    retractall(attempt(_, _, _, _)).
-
 due_at(queued, Until) :-
     young(Until).
-due_at(trying(_, _, _, Until), Until).
+due_at(trying(_, _, Until), Until).
 due_at(pausing(Until), Until).
 due_at(idle(Until), Until).
 
@@ -424,12 +417,12 @@ due(_, Address, _) :-
     route_up(Address, _),
     !,
     address_met(Address).
-due(trying(Thread, _, _, _), Address, _) :-
+due(trying(Thread, _, _), Address, _) :-
     !,
     in_background(wire_thread_end(Thread, late), end-Address),
     failed(Address, late).
 due(idle(_), Address, _) :-
-    waiting_first(Address, _),
+    waiting(Address, _, _),
     !,
     attempt_want(Address).
 due(_, Address, Me) :-
@@ -452,17 +445,17 @@ failed(Address, _) :-
     address_met(Address).
 failed(Address, Formal) :-
     debug(typhon(connect), '~w: no connection: ~p', [Address, Formal]),
-    attempt(Address, trying(_, _, Asked, _), Pause, First),
+    attempt(Address, trying(_, Start, _), Pause, First),
     deadline(Address, First, Deadline),
     pause_end(Pause, Deadline, Until),
     (   over(Formal, Address, Deadline)
     ->  print_message(silent,
                       typhon(endpoint, unreachable(Address, Formal))),
         peer_missed(Address, Formal),
-        waiting_missed(Address, Asked)
+        waiting_missed(Address, Start)
     ;   true
     ),
-    again(Address, Asked, Until, Pause, First).
+    again(Address, Start, Until, Pause, First).
 
 %   deadline(+Address, +First, -Deadline): the time of the callers, which begins
 %   with the First try, is over then. First is 0 if there is no caller.
@@ -513,14 +506,14 @@ may_pass(socket_error(Code, _)) :-
                       eai_again, eintr, emfile, enfile, enobufs, enomem,
                       eaddrnotavail ]).
 
-%   again(+Address, +Asked, +Until, +Pause, +First): callers that came after the
-%   try had begun, or of which it did not know, get another one at once.
+%   again(+Address, +Start, +Until, +Pause, +First): callers that came after the
+%   start of the try, or of which it did not know, get another one at once.
 
-again(Address, Asked, Until, Pause, First) :-
-    waiting_first(Address, Number),
+again(Address, Start, Until, Pause, First) :-
+    waiting(Address, Since, _),
     !,
     (   First > 0,
-        Number < Asked
+        Since =< Start
     ->  pause(Address, pausing(Until), Pause, First)
     ;   first_pause(Shortest),
         attempt_set(Address, queued, Shortest, 0)
@@ -546,19 +539,6 @@ prolog:message(typhon(endpoint, unreachable(Address, Formal))) -->
                 *           WAITING            *
                 *******************************/
 
-%   waiting_first(?Address, -Number): a thread or request waits for Address;
-%   the first has this Number.
-
-waiting_first(Address, Number) :-
-    waiting(Address, Number, _),
-    !.
-
-%   waiting_number(-Number): all that wait have lower numbers; those that come
-%   later will not.
-
-waiting_number(Number) :-
-    flag(typhon_connection_manager, Number, Number).
-
 %!  unsent(?Address) is semidet.
 %
 %   A request waits for Address.
@@ -570,11 +550,11 @@ unsent(Address) :-
 %   What, thread(Queue) or a request, waits for Address.
 
 waiting_add(Address, What) :-
-    flag(typhon_connection_manager, Number, Number+1),
-    assertz(waiting(Address, Number, What)),
+    monotonic_time(Now),
+    assertz(waiting(Address, Now, What)),
     (   manager_notify(wanted_at(Address))
     ->  true
-    ;   missed(Address, Number)
+    ;   waiting_missed(Address, inf)
     ).
 
 %   waiting_met(+Address, +Session): Session leads to Address: send all
@@ -582,10 +562,10 @@ waiting_add(Address, What) :-
 %   manager only.
 
 waiting_met(Address, Session) :-
-    waiting(Address, Number, What),
+    waiting(Address, Since, What),
     !,
     (   met(What, Address, Session)
-    ->  sent(Address, Number, What),
+    ->  sent(Address, Since, What),
         waiting_met(Address, Session)
     ;   ignore(manager_notify(wanted_at(Address)))
     ).
@@ -607,8 +587,8 @@ notify(Queue, Result) :-
 
 %   The caller may have given up the request meanwhile.
 
-sent(Address, Number, What) :-
-    (   retract(waiting(Address, Number, _))
+sent(Address, Since, What) :-
+    (   retract(waiting(Address, Since, What))
     ->  true
     ;   What = request(_, _, OnAnswer)
     ->  request_forget(OnAnswer)
@@ -626,17 +606,14 @@ not_sent(Formal, Context, _, OnAnswer) :-
     print_error(error, error(Formal, Context)),
     request_answer(unreachable, OnAnswer).
 
-%   waiting_missed(?Address, +Number): Address cannot be reached: report that
-%   to all that have a number below Number, or to all if that is `inf`.
+%   waiting_missed(?Address, +Start): Address cannot be reached: report that to
+%   all that wait since Start, or longer.
 
-waiting_missed(Address, Number) :-
-    forall(( waiting(Address, N, _), N < Number ), missed(Address, N)).
-
-missed(Address, Number) :-
-    (   retract(waiting(Address, Number, What))
-    ->  missed(What)
-    ;   true
-    ).
+waiting_missed(Address, Start) :-
+    forall(( waiting(Address, Since, What),
+             Since =< Start,
+             once(retract(waiting(Address, Since, What))) ),
+           missed(What)).
 
 missed(thread(Queue)) :-
     notify(Queue, missed).
@@ -657,12 +634,9 @@ missed(request(_, _, OnAnswer)) :-
 %   which cannot wait for itself, both fail.
 
 manager_connect(Address) :-
-    connected(Address, inf).
+    manager_connect(Address, inf).
 
 manager_connect(Address, Deadline) :-
-    connected(Address, Deadline).
-
-connected(Address, Deadline) :-
     \+ in_manager,
     setup_call_cleanup(
         message_queue_create(Queue),

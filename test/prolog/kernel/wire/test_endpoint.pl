@@ -648,7 +648,7 @@ test(stop_while_connecting, Result == unreachable) :-
     with_deaf(A,
         fresh(( asked(A, echo),
                         wait_until(typhon_connection_manager:attempt(
-                                       A, trying(_, _, _, _), _, _), 10) ))),
+                                       A, trying(_, _, _), _, _), 10) ))),
     answer(Result).
 test(thread_stops_waiting_at_its_deadline, Count == 0) :-
     with_deaf(A,
