@@ -4,6 +4,7 @@
             write_index/0
           ]).
 :- use_module(library(lists), [member/2]).
+:- use_module(library(solution_sequences), [distinct/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(tree).
 
@@ -57,23 +58,27 @@ write_index :-
         close(Out)).
 
 index_text(Text) :-
-    findall(part_joins(Seam, What, Part), part_joins(Seam, What, Part), Joins0),
+    findall(Seam-(Part-What), part_joins(Seam, What, Part), Joins0),
     sort(Joins0, Joins),
-    findall(part_file(Part, Path),
-            ( member(part_joins(_, _, Part), Joins), part_file(Part, Path) ),
-            Files0),
-    sort(Files0, Files),
+    findall(joins(Seam, Part, Whats),
+            bagof(What, member(Seam-(Part-What), Joins), Whats), Seams),
+    findall(files(Part, Files),
+            ( distinct(Part, member(_-(Part-_), Joins)),
+              setof(Path, part_file(Part, Path), Files) ),
+            Parts0),
+    sort(Parts0, Parts),
     findall(Setting, part_setting(Setting), Settings0),
     sort(Settings0, Settings),
-    with_output_to(string(Text), print_index(Joins, Files, Settings)).
+    with_output_to(string(Text), print_index(Seams, Parts, Settings)).
 
-print_index(Joins, Files, Settings) :-
+print_index(Seams, Parts, Settings) :-
     format(':- module(typhon_index,
           [ part_joins/3,               % ?Seam, ?What, ?Part
             part_file/2,                % ?Part, ?File
             part_setting/6              % ?Name, ?Module, ?Type, ?Default, ?Text,
                                         % ?File
           ]).
+:- use_module(library(lists), [member/2]).
 
 /** <module> What is loaded on demand
 
@@ -86,10 +91,18 @@ Made by `swipl doc/layers.pl -- index`, and compared by `make check`.
 %
 %   Part defines the hook Seam for What.
 
+part_joins(Seam, What, Part) :-
+    joins(Seam, Part, Whats),
+    member(What, Whats).
+
 ~@
 %!  part_file(?Part, ?File) is nondet.
 %
 %   File, below prolog/typhon, defines hooks of Part.
+
+part_file(Part, File) :-
+    files(Part, Files),
+    member(File, Files).
 
 ~@
 %!  part_setting(?Name, ?Module, ?Type, ?Default, ?Text, ?File) is nondet.
@@ -97,7 +110,7 @@ Made by `swipl doc/layers.pl -- index`, and compared by `make check`.
 %   File declares the setting Module:Name.
 
 ~@',
-           [print_facts(Joins), print_facts(Files), print_facts(Settings)]).
+           [print_facts(Seams), print_facts(Parts), print_facts(Settings)]).
 
 print_facts(Facts) :-
     forall(member(Fact, Facts), format('~q.~n', [Fact])).
