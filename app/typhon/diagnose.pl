@@ -24,7 +24,9 @@ has been printed if the network does not answer.
 :- use_module('../../prolog/typhon', [host_property/2]).
 :- use_module('../../prolog/typhon/kernel/base/error_text', [error_text/2]).
 :- use_module('../../prolog/typhon/kernel/base/text', [format_shown/2]).
-:- use_module('../../prolog/typhon/kernel/wire', [cookie/1, endpoint_peer/2]).
+:- use_module('../../prolog/typhon/kernel/host/hosts', [address_parts/3]).
+:- use_module('../../prolog/typhon/kernel/wire',
+              [cookie/1, endpoint_parts/3, endpoint_peer/2]).
 
 connect_deadline(5).                    % seconds
 
@@ -118,14 +120,14 @@ check(_, cookie, Found) :-
 check(none, _, not_asked) :-
     !.
 check(Address, address, Found) :-
-    address_parts(Address, Name, Interface, Port),
+    located(Address, Name, Interface, Port),
     format(atom(Found), 'host ~w, port ~d of ~w', [Name, Port, Interface]).
 check(Address, 'name resolution', Found) :-
-    address_parts(Address, _, Interface, _),
+    located(Address, _, Interface, _),
     resolve(Interface, IP),
     format(atom(Found), '~w is ~w', [Interface, IP]).
 check(Address, connection, 'a program listens there') :-
-    address_parts(Address, _, Interface, Port),
+    located(Address, _, Interface, Port),
     connect_within_deadline(Interface:Port).
 check(Address, authentication, Found) :-
     monotonic_time(Start),
@@ -160,19 +162,15 @@ cookie_source(File) :-
     !.
 cookie_source('~/.typhon.cookie').
 
-address_parts(Address, Name, Interface, Port) :-
-    atomic_list_concat([Name, Endpoint], '@', Address),
-    sub_atom(Endpoint, Before, 1, After, :),
-    sub_atom(Endpoint, 0, Before, _, Interface),
-    sub_atom(Endpoint, _, After, 0, PortText),
-    atom_number(PortText, Port),
-    integer(Port),
-    !.
-address_parts(Address, _, _, _) :-
-    throw(error(domain_error(host_address, Address), _)).
+located(Address, Name, Interface, Port) :-
+    (   address_parts(Address, Name, Endpoint),
+        endpoint_parts(Endpoint, Interface, Port)
+    ->  true
+    ;   throw(error(domain_error(host_address, Address), _))
+    ).
 
 codec(Address, Codec) :-
-    atomic_list_concat([_, Endpoint], '@', Address),
+    address_parts(Address, _, Endpoint),
     endpoint_peer(Endpoint, codec(Codec)),
     !.
 codec(_, unknown).

@@ -16,6 +16,7 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../kernel/base/options', [check_options/2]).
 :- use_module('../kernel/base/prolog_faults', [installed_swipl/2, spawn/3]).
+:- use_module('../kernel/base/text', [shell_word/2]).
 :- use_module('../kernel/wire', [cookie/1, random_hex/2]).
 :- use_module('../options/keys', [own_keys/1]).
 :- use_module(child_output, [output_line/2]).
@@ -164,7 +165,7 @@ command(Machine, _, Program, [Target|Command], at(Bind, Advertised)) :-
     option(node(File0), Options, Here),
     named_now(File0, File),
     node_args(File, Args),
-    maplist(shell_word, [Swipl|Args], Command).
+    maplist(shell_word, [Swipl|Args], Command). % for the shell there
 
 %   swipl(-Program): Program is not a stand-alone saved state. That would run
 %   its own goal, which starts processes, and so on without end.
@@ -192,13 +193,6 @@ typhon_options:declared(machine_option, swipl(X), atom, X).
 typhon_options:declared(machine_option, node(X), atom, X).
 
 node_args(File, ['-q', '-f', none, '-g', node_main, '-t', 'halt(1)', File]).
-
-%   The command goes through the shell of the other machine.
-
-shell_word(Word, Quoted) :-
-    atomic_list_concat(Parts, '\'', Word),
-    atomic_list_concat(Parts, '\'\\\'\'', Inner),
-    atomic_list_concat(['\'', Inner, '\''], Quoted).
 
 target_host(Target, Host) :-
     atomic_list_concat(Parts, @, Target),

@@ -10,7 +10,8 @@
             formatted/3,                % +Format, +Args, -Text
             format_shown/2,             % +Format, +Args
             format_shown/3,             % +Out, +Format, +Args
-            shown_lines/2               % +Lines0, -Lines
+            shown_lines/2,              % +Lines0, -Lines
+            shell_word/2                % +Text, -Word
           ]).
 
 /** <module> The canonical text of a term, and text as it may be printed
@@ -513,3 +514,16 @@ parts(url(Place, Label), '~w ~w', [Place, Text0], '~w'-[Text], Text) :-
 parts(Format, Format, [], '~w'-[Text], Text) :-
     ( atom(Format) ; string(Format) ),
     \+ memberchk(Format, [nl, flush, full_stop, at_same_line]).
+
+                /*******************************
+                *            SHELLS            *
+                *******************************/
+
+%!  shell_word(+Text, -Word:atom) is det.
+%
+%   A POSIX shell reads Word as Text.  A quote inside quotes is written '\''.
+
+shell_word(Text, Word) :-
+    atomic_list_concat(Parts, '\'', Text),
+    atomic_list_concat(Parts, '\'\\\'\'', Inside),
+    atomic_list_concat(['\'', Inside, '\''], Word).

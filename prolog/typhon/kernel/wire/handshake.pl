@@ -37,6 +37,7 @@ fact; two threads that read it at once store the same.
 :- use_module(library(sha), [hash_atom/2, hmac_sha/4]).
 :- use_module('../base/private', [private_new/2]).
 :- use_module('../base/monotonic', [monotonic_time/1]).
+:- use_module('../base/text', [shell_word/2]).
 :- use_module(frame, [check_bytes/2]).
 :- use_module(transport, [line_read/3, line_write/2]).
 
@@ -391,13 +392,6 @@ check_private(File) :-
     ;   format(atom(Why), 'others may use it: chmod 600 ~w', [File]),
         unfit(File, Why)
     ).
-
-%   A quote inside quotes is written '\''.
-
-shell_word(Text, Word) :-
-    atomic_list_concat(Parts, '\'', Text),
-    atomic_list_concat(Parts, '\'\\\'\'', Inside),
-    atomic_list_concat(['\'', Inside, '\''], Word).
 
 make_cookie(File) :-
     random_hex(32, Cookie),
