@@ -8,7 +8,7 @@
 :- use_module('../../prolog/typhon',
               [agent_create/3, agent_property/2, agent_send/2, remote/2]).
 :- use_module('../../prolog/typhon/kernel/base/options', [check_options/2]).
-:- use_module('../../prolog/typhon/kernel/program/source', []).
+:- use_module('../../prolog/typhon/kernel/program/paths', []).
 :- use_module('../lib/settings', [known_settings/3]).
 :- use_module(tasks, [check_task/1]).
 :- use_module(library(aggregate), [aggregate_all/3]).

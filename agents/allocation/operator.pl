@@ -10,7 +10,7 @@
 :- use_module('../../prolog/typhon',
               [agent_create/3, agent_property/2, agent_send/2, remote/2]).
 :- use_module('../../prolog/typhon/kernel/base/options', [check_options/2]).
-:- use_module('../../prolog/typhon/kernel/program/source', []).
+:- use_module('../../prolog/typhon/kernel/program/paths', []).
 :- use_module('../lib/settings', [known_settings/3, setting_facts/2]).
 :- use_module(tasks, [check_task/1]).
 :- use_module(library(error), [existence_error/2, must_be/2]).

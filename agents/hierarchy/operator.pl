@@ -4,7 +4,7 @@
           ]).
 :- use_module('../../prolog/typhon', [agent_create/3, agent_join/3]).
 :- use_module('../../prolog/typhon/kernel/base/options', [check_options/2]).
-:- use_module('../../prolog/typhon/kernel/program/source', []).
+:- use_module('../../prolog/typhon/kernel/program/paths', []).
 :- use_module('../lib/settings', [setting_facts/2]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(error), [must_be/2]).

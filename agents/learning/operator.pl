@@ -8,7 +8,7 @@
                 payload_detach/2, remote/2
               ]).
 :- use_module('../../prolog/typhon/kernel/base/options', [check_options/2]).
-:- use_module('../../prolog/typhon/kernel/program/source', []).
+:- use_module('../../prolog/typhon/kernel/program/paths', []).
 :- use_module('../lib/settings', [setting_facts/2]).
 :- use_module('../lib/starts', [starts/4]).
 :- use_module(library(apply), [maplist/2, maplist/4]).

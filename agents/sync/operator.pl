@@ -8,7 +8,7 @@
 :- use_module('../../prolog/typhon',
               [agent_create/3, agent_send/2, remote/2]).
 :- use_module('../../prolog/typhon/kernel/base/options', [check_options/2]).
-:- use_module('../../prolog/typhon/kernel/program/source', []).
+:- use_module('../../prolog/typhon/kernel/program/paths', []).
 :- use_module('../lib/settings', [unknown_setting/2]).
 :- use_module('../lib/starts', [starts/4]).
 :- use_module(library(apply), [foldl/4, include/3, maplist/2, maplist/3]).

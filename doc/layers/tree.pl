@@ -299,7 +299,7 @@ reach(Part, Module, Name/Arity) :-
 %   imports from layers before it.
 
 layers([ 'kernel/base', 'bridges/helper', 'bridges/nxt', 'kernel/program',
-         'kernel/wire', 'kernel/host', 'kernel/agent', 'kernel/travel',
+         'language/chunks', language, 'kernel/wire', 'kernel/host', 'kernel/agent', 'kernel/travel',
          'kernel/lifecycle', 'kernel/vocabulary',
          'tools/administration', 'tools/checks', 'tools/source_view',
          'options/migration', 'options/keys', 'options/tls',

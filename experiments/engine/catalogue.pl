@@ -9,7 +9,7 @@
               [append/2, list_to_set/2, member/2, memberchk/2]).
 :- use_module(library(pairs), [map_list_to_pairs/3, pairs_values/2]).
 :- use_module('../../prolog/typhon/kernel/base/names', [names_proposed/3]).
-:- use_module('../../prolog/typhon/kernel/program', [files_beside/3]).
+:- use_module('../../prolog/typhon/language', [files_beside/3]).
 :- use_module(studies, [study_call/2, study_load/2, study_title/3]).
 
 /** <module> The available studies

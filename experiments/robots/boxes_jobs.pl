@@ -2,8 +2,8 @@
           [ job_task/2,                 % +Job, -Task
             job_box/2                   % +Job, -Line
           ]).
-:- use_module('../../prolog/typhon/kernel/program/source', []).
-:- use_module('../../prolog/typhon/kernel/program/programs', [payload_load/2]).
+:- use_module('../../prolog/typhon/kernel/program/paths', []).
+:- use_module('../../prolog/typhon/language/programs', [payload_load/2]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2]).
 

@@ -6,8 +6,8 @@
           ]).
 :- use_module('../../prolog/typhon', [remote/2]).
 :- use_module('../../prolog/typhon/nxt', [nxt_brick/2, nxt_disconnect/1]).
-:- use_module('../../prolog/typhon/kernel/program/source', []).
-:- use_module('../../prolog/typhon/kernel/program/programs', [payload_load/2]).
+:- use_module('../../prolog/typhon/kernel/program/paths', []).
+:- use_module('../../prolog/typhon/language/programs', [payload_load/2]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(filesex), [relative_file_name/3]).
 

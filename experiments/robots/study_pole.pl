@@ -6,7 +6,7 @@
                 network_property/2 ]).
 :- use_module('../../agents/sync/operator', [sequence_start/5]).
 :- use_module('../../prolog/typhon/kernel/base/json', [json_dict/2]).
-:- use_module('../../prolog/typhon/kernel/program/source', []).
+:- use_module('../../prolog/typhon/kernel/program/paths', []).
 :- use_module('../sync/metrics',
               [ executions/2, from_start/2, idle_time/2, marks/3,
                 out_of_order/2, overlaps/2, required/5, task_rows/2, tau/2,

@@ -1,8 +1,8 @@
 %   Programs in the sieve: the surviving ones, and their quality.
 
 :- include(ground).
-:- use_module('../../prolog/typhon/kernel/program/source', []).
-:- use_module('../../prolog/typhon/kernel/program/programs', [payload_load/2]).
+:- use_module('../../prolog/typhon/kernel/program/paths', []).
+:- use_module('../../prolog/typhon/language/programs', [payload_load/2]).
 :- use_module(pictures, [curve_points/3]).
 :- use_module(rounds, [population/3]).
 :- use_module(library(aggregate), [aggregate_all/3]).

@@ -59,11 +59,12 @@ works_in(Home, Dir) :-
     make_program(Dir, elsewhere, other),
     swipl_at_home(Home, Dir,
                   [ 'use_module(library(typhon))',
+                    'use_module(library(typhon/language), [program_file/2])',
                     'assertz(user:file_search_path(agents, elsewhere))',
                     'forall(member(F, [agents(mine), payloads(load), \c
                                        agents(other), \c
                                        agents(\'sync/worker\')]), \c
-                            ( typhon_source:program_file(F, P), \c
+                            ( program_file(F, P), \c
                               writeln(P) ))',
                     'host_start(here)',
                     'host_start(guarded, [policy(guarded), cell(none)])',
@@ -216,9 +217,10 @@ renamed(Status, Out, Err, Agent, Dir) :-
     make_program(Dir, agents, mine),
     directory_file_path(Agents, 'mine.pl', AgentFile),
     atom_string(AgentFile, Agent),
-    format(atom(Load), 'use_module(~q)', [File]),
+    format(atom(Load), 'use_module(~q),use_module(library(typhon/language))',
+           [File]),
     run_swipl(['-f', none, '-g', Load,
-               '-g', 'typhon_source:program_file(agents(mine), F), write(F)',
+               '-g', 'program_file(agents(mine), F), write(F)',
                '-t', halt],
               [cwd('/')], Status, Out, Err).
 

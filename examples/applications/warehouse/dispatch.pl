@@ -7,8 +7,8 @@
 :- use_module('../../../prolog/typhon',
               [ agent_create/3, agent_dispose/1, agent_property/2, agent_send/2,
                 remote/2 ]).
-:- use_module('../../../prolog/typhon/kernel/program/source', []).
-:- use_module('../../../prolog/typhon/kernel/program/programs',
+:- use_module('../../../prolog/typhon/kernel/program/paths', []).
+:- use_module('../../../prolog/typhon/language/programs',
               [payload_load/2]).
 :- use_module('../../../agents/allocation/operator',
               [allocation_stage/3, robot_status/2, task_allocate/4]).

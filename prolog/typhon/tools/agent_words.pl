@@ -13,7 +13,8 @@
 :- use_module(library(solution_sequences), [distinct/2, limit/2]).
 :- autoload(library(prolog_xref), [xref_source/2]).
 :- use_module('../kernel/program',
-              [declaration/4, indicator_in/2, vocabulary_word/2]).
+              [indicator_in/2, vocabulary_word/2]).
+:- autoload('../language', [declaration/4]).
 :- use_module('../kernel/vocabulary', []).
 
 /** <module> Predicates of agents, for the top level, help/1 and editors

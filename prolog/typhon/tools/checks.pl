@@ -5,10 +5,11 @@
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [append/2, member/2]).
 :- use_module('../kernel/base/options', [check_options/2]).
-:- use_module('../kernel/program',
-              [ declaration/4, file_parts/4, in_file_order/3,
-                library_directive/2, mobile_predicates/3, part/3,
-                payload_terms/3, program_terms/6, source_terms/5 ]).
+:- use_module('../kernel/program', [mobile_predicates/3]).
+:- autoload('../language',
+            [ declaration/4, file_parts/4, in_file_order/3,
+              library_directive/2, part/3, payload_terms/3, program_terms/6,
+              source_terms/5 ]).
 :- autoload('checks/lost_choices', [lost_choice/3]).
 :- autoload('checks/warnings',
             [ apart_problem/3, print_problem/2, program_warnings/3,

@@ -14,7 +14,7 @@ networks and of the log have the texts of their own messages.
               [abridged/3, error_lines/3, term_lines/3]).
 :- use_module('../kernel/base/text', [shown_text/3]).
 :- use_module('../kernel/wire', [endpoint_missed/2, refusal_text/2]).
-:- use_module('../kernel/program', [files_beside/3]).
+:- autoload('../language', [files_beside/3]).
 :- use_module('../kernel/host',
               [address_parts/3, host_resolve/2]).
 :- use_module(administration, [host_property/2]).

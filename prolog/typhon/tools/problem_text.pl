@@ -2,7 +2,7 @@
 :- use_module(library(apply), [maplist/3]).
 :- use_module('../kernel/base/error_text', [error_lines/3]).
 :- use_module('../kernel/base/names', [names_joined/3]).
-:- use_module('../kernel/program', [problem_error/3]).
+:- autoload('../language', [problem_error/3]).
 
 /** <module> Texts of problems of programs, with advice
 

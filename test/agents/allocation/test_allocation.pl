@@ -8,6 +8,7 @@
 :- use_module(library(terms), [mapargs/3]).
 :- use_module(library(yall)).
 :- use_module('../../../prolog/typhon').
+:- use_module('../../../prolog/typhon/language', [payload_load/2]).
 :- use_module('../../../agents/allocation/reservations').
 :- use_module('../../../agents/allocation/operator').
 :- include('../../../agents/allocation/allocator/mobility_resource').
@@ -166,8 +167,7 @@ test(way_to_the_next_robot,
     ( call(Goal, Host, Distance) -> Way = Host-Distance ; Way = none ).
 
 with_payload(Payload, Goal) :-
-    typhon_programs:payload_load(payloads(allocation/Payload),
-                                 payload(_, _, Clauses)),
+    payload_load(payloads(allocation/Payload), payload(_, _, Clauses)),
     setup_call_cleanup(
         maplist([Clause]>>assertz(test_allocation_payload:Clause), Clauses),
         once(Goal),

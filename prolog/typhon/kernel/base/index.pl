@@ -52,6 +52,7 @@ joins(order,'options/identity',[attach]).
 joins(order,'options/trace',[watched]).
 joins(order,'tools/administration',[change,image]).
 joins(pheromone_option,'options/migration',[period,span,strength]).
+joins(program,'language/chunks',[runs]).
 joins(program,'tools/checks',[read]).
 joins(question,'options/trace',[step]).
 joins(question,'options/trail',[trail]).
@@ -84,6 +85,7 @@ part_file(Part, File) :-
     member(File, Files).
 
 files('bridges/ros',['bridges/ros/events','bridges/ros/requests','bridges/ros/service']).
+files('language/chunks',['language/chunks/chunk_compiler','language/chunks/chunk_faults']).
 files(network,['network/changes','network/children','network/dynamics','network/loading','network/log','network/networks','network/node_process','network/plan','network/topology','network/wiring']).
 files('options/access',['options/access']).
 files('options/cell',['options/cell/cell_hosts','options/cell/gatekeeper']).
@@ -130,6 +132,7 @@ part_setting(content_characters,typhon_host_log,positive_integer,200,'The text o
 part_setting(delay,typhon_event_sender,number,0.05,'Seconds for which events gather before they are sent','options/watch/event_sender').
 part_setting(entries,typhon_fipa_managers,positive_integer,10000,'Descriptions in a directory of FIPA','bridges/fipa/managers').
 part_setting(events,typhon_watch_senders,positive_integer,10000,'Events that may wait for a slow watch','options/watch/watch_senders').
+part_setting(files,typhon_loaded,nonneg,64,'Programs remembered as they were read','language/programs').
 part_setting(frame_events,typhon_page_browsers,positive_integer,2000,'Events in a text that a page sends','tools/page/browsers').
 part_setting(frame_seconds,typhon_page_browsers,number,0.05,'Seconds between two texts with events that a page sends','tools/page/browsers').
 part_setting(functors,typhon_cells,positive_integer,20000,'Functors that the cells of an owner may bring into the process','options/cell/cell_functors').

@@ -2,6 +2,8 @@
           [ body_goals/4,               % +Body, ?Barrier, -Goals, ?Rest
             plain_goal/2,               % +Goal0, -Goal
             goals_body/2,               % +Goals, -Body
+            clause_parts/3,             % +Clause, -Head, -Body
+            indicator_in/2,             % +PIs, ?PI
             called_goal/2,              % +Goal, -Called
             control/1,                  % ?Head
             special/2,                  % ?Head, ?Kind
@@ -161,3 +163,23 @@ special(receive_until(_, _), control).  % in old restore points
 special('$fault'(_), control).          % stays in place: see typhon_ending
 special_of(call, call).                 % with more than one argument
 special_of('$checked', checked).        % see typhon_checked
+
+%!  clause_parts(+Clause, -Head, -Body) is det.
+%
+%   Body is `true` if Clause is a fact.
+
+clause_parts(Var, Var, true) :-
+    var(Var),
+    !.
+clause_parts((Head:-Body), Head, Body) :-
+    !.
+clause_parts(Head, Head, true).
+
+%!  indicator_in(+PIs, ?PI) is nondet.
+%
+%   PI is one of PIs, in the form of the argument of dynamic/1.
+
+indicator_in(Var, _) :- var(Var), !, fail.
+indicator_in([A|B], PI) :- !, ( indicator_in(A, PI) ; indicator_in(B, PI) ).
+indicator_in((A,B), PI) :- !, ( indicator_in(A, PI) ; indicator_in(B, PI) ).
+indicator_in(Name/Arity, Name/Arity) :- atom(Name), integer(Arity).

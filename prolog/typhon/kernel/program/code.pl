@@ -14,6 +14,7 @@
             code_places/2,              % +Hash, -Places
             code_names/2,               % +Hash, -Lists
             code_make/3,                % +Program, +Kinds, -Module
+            program_hash/2,             % +Program, -Hash
             native_body/4,              % +Body0, +Module, +Own, -Body
             code_clear/0
           ]).
@@ -25,12 +26,11 @@
 :- use_module(library(lists), [append/3, member/2, memberchk/2]).
 :- use_module(library(occurs), [sub_term/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module(bodies, [body_goals/4, named/4]).
+:- use_module(library(sha), [hash_atom/2, sha_hash/3]).
+:- use_module(bodies, [body_goals/4, clause_parts/3, named/4]).
 :- use_module(libraries, [import_library/2, is_import/1]).
 :- use_module(mobile, [mobile_predicates/3]).
 :- use_module(places, [clauses_names/2, is_places/1]).
-:- use_module(programs, [program_hash/2]).
-:- use_module(source, [clause_parts/3]).
 :- use_module(thread_state, [is_confined/1, library_hook/0, program_base/1]).
 
 /** <module> Programs installed in this process
@@ -156,6 +156,25 @@ receive(Hash, Program) :-
         code_install(Hash, Program, Kinds)
     ;   domain_error(program_of_hash(Hash), Program)
     ).
+
+%!  program_hash(+Program, -Hash:atom) is det.
+%
+%   The name of Program: SHA-256 of its canonical text, the same on every
+%   Prolog version and word size.
+
+program_hash(Program, Hash) :-
+    Program = program(_, State, Libraries, Clauses),
+    with_output_to(string(Text),
+                   forall(member(Term, [State,Libraries|Clauses]),
+                          print_canonical(Term))),
+    sha_hash(Text, Bytes, [algorithm(sha256), encoding(utf8)]),
+    hash_atom(Bytes, Hash).
+
+print_canonical(Term) :-
+    \+ \+ ( numbervars(Term, 0, _, [functor_name('$typhon_variable')]),
+            write_term(Term, [ quoted(true), ignore_ops(true) ]),
+            nl
+          ).
 
 %!  code_wrapped(+Extras, +Sent0, -Sent) is det.
 %!  code_unwrapped(+Sent, -Sent0, -Extras:list) is det.

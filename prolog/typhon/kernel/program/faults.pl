@@ -7,8 +7,7 @@
             fault_noted/1,              % -Note
             fault_note/1                % +Note
           ]).
-:- use_module(library(apply), [maplist/2]).
-:- use_module(library(lists), [append/3, member/2, memberchk/2]).
+:- use_module(library(lists), [memberchk/2]).
 :- use_module(bodies, [goals_body/2]).
 :- use_module(chunks, [place_left/4, plain_goals/2]).
 
@@ -31,6 +30,8 @@ catch their errors half a microsecond.
 */
 
 :- multifile
+    chunk_goal/4,               % +Frame, +PC, -Goal, -Goals: the chunk in Frame
+                                % has called Goal before PC, and Goals are left
     user:prolog_exception_hook/4,
     prolog:prolog_exception_hook/5.
 :- dynamic
@@ -173,9 +174,7 @@ raising(Frame, Control, [Control|Goals], Outer) :-
 raising(Frame, Goal, Goals, Outer) :-
     in_chunk(Frame, Outer, PC),
     !,
-    chunk_place(Outer, PC, Place, Vars, Rest),
-    place_left(Place, Vars, Goal, Left),
-    append(Left, Rest, Goals).
+    chunk_goal(Outer, PC, Goal, Goals).
 raising(Frame, Goal, [Goal|Goals], Outer) :-
     outer(Frame, called(Goal, Goals, _, _, _), Outer).
 
@@ -228,51 +227,6 @@ is_chunk(Frame) :-
 chunk_name('$k') :- !.
 chunk_name(Name) :- sub_atom(Name, 0, _, _, 'run '), !.
 chunk_name(Name) :- sub_atom(Name, 0, _, _, 'do ').
-
-%   chunk_place(+Frame, +PC, -Place, -Vars, -Goals): in the clause, each goal
-%   is followed by the call that notes its failure, which has the place as a
-%   number.  The other arguments of that call are read from the frame.
-
-chunk_place(Frame, PC, Place, Vars, Goals) :-
-    prolog_frame_attribute(Frame, clause, Clause),
-    number_after(Clause, PC, call, Place),
-    '$clause'(_, Body, Clause, Slots),
-    noted_in(Body, Place, Vars, Goals),
-    term_variables(Vars-Goals, Variables),
-    maplist(from_frame(Frame, Slots), Variables).
-
-number_after(Clause, PC, State0, Place) :-
-    '$fetch_vm'(Clause, PC, Next, Instruction),
-    (   Instruction = c_softcut(_)
-    ->  State = cut
-    ;   State = State0
-    ),
-    (   State == cut,
-        Instruction = b_smallint(Place0)
-    ->  Place = Place0
-    ;   number_after(Clause, Next, State, Place)
-    ).
-
-noted_in(Term, Place, Vars, Goals) :-
-    compound(Term),
-    (   ( Term = fails_at(Place0, Vars0, Goals0)
-        ; Term = test_fails(Place0, Vars0, Goals0)
-        ),
-        Place0 == Place
-    ->  Vars = Vars0,
-        Goals = Goals0
-    ;   arg(_, Term, Part),
-        noted_in(Part, Place, Vars, Goals)
-    ),
-    !.
-
-from_frame(Frame, Slots, Variable) :-
-    member(Slot=Variable0, Slots),
-    Variable0 == Variable,
-    !,
-    Argument is Slot+1,
-    prolog_frame_attribute(Frame, argument(Argument), Variable).
-from_frame(_, _, _).
 
 %   native_goal(+Frame, -Goal): the goal of Frame, which raised the error, or
 %   `none` if it is too large.

@@ -1,13 +1,10 @@
 :- module(typhon_places,
-          [ places/2,                   % +Locations, -Places
-            places_named/4,             % +Places0, +Clauses, +Sources, -Places
-            clauses_names/2,            % +Places, -Lists
+          [ clauses_names/2,            % +Places, -Lists
             place/3,                    % +Places, +N, -Place
             is_places/1                 % @Term
           ]).
-:- use_module(library(apply), [maplist/2, maplist/4]).
-:- use_module(library(lists),
-              [append/3, member/2, memberchk/2, nth1/3, same_length/2]).
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(lists), [member/2, memberchk/2, nth1/3]).
 
 /** <module> The places of the clauses of a program
 
@@ -20,42 +17,6 @@ places: [].  Two programs that differ only in places are the same.
 
 *Threading*: pure.
 */
-
-%!  places(+Locations:list, -Places) is det.
-%
-%   Locations are those of the clauses, see typhon_source.
-
-places([File:Line|Locations], [File-[Line|Lines]|Places]) :-
-    !,
-    in_file(Locations, File, Lines, Rest),
-    places(Rest, Places).
-places(_, []).
-
-in_file([File:Line|Locations], File, [Line|Lines], Rest) :-
-    !,
-    in_file(Locations, File, Lines, Rest).
-in_file(Rest, _, [], Rest).
-
-%!  places_named(+Places0, +Clauses, +Sources, -Places) is det.
-%
-%   Places are Places0, of Clauses, with the names of variables from Sources,
-%   see source_terms/5.
-
-places_named([], _, _, Places) =>
-    Places = [].
-places_named(Places0, Clauses, Sources, Places) =>
-    findall(File:Line, ( member(File-Lines, Places0), member(Line, Lines) ),
-            Locations),
-    maplist(names_of(Sources), Locations, Clauses, Lists),
-    append(Places0, [names(Lists)], Places).
-
-names_of(Sources, Location, Clause, Names) :-
-    (   findall(Found, member(names(Location, Found), Sources), [Names0]),
-        term_variables(Clause, Variables),
-        same_length(Variables, Names0)
-    ->  Names = Names0
-    ;   Names = []
-    ).
 
 %!  clauses_names(+Places, -Lists) is det.
 %

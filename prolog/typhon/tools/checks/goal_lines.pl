@@ -3,7 +3,7 @@
           ]).
 :- use_module(library(lists), [append/3, nth1/3]).
 :- autoload(library(readutil), [read_file_to_string/3]).
-:- use_module('../../kernel/program', [source_clause/2]).
+:- use_module('../../language', [source_clause/2]).
 
 /** <module> The line of the goal of a problem
 

@@ -405,7 +405,7 @@ loads_library(How, Program, Sent, Escaped, Dir) :-
     write_file(File, ":- module(harm, []).~n:- ~q.~n",
                      [flag(typhon_guard_escaped, _, 1)]),
     Program = program(x, [], [File-all], [(main :- true)]),
-    typhon_programs:program_hash(Program, Hash),
+    typhon_code:program_hash(Program, Hash),
     with_hosts([g-[policy(guarded), cell(none)]],
                escaped(come(How, Hash, Sent), Escaped)).
 

@@ -11,6 +11,7 @@
 :- use_module(library(random), [random_between/3, random_member/2]).
 :- use_module(library(yall)).
 :- use_module(library(typhon)).
+:- use_module(library(typhon/language), [program_read/7]).
 
 /** <module> A host loads no library for a program that it refuses
 
@@ -141,7 +142,7 @@ sends(create).
 sends(change).
 
 sent(Way, Program, Agent, Answer) :-
-    typhon_programs:program_hash(Program, Hash),
+    typhon_code:program_hash(Program, Hash),
     typhon_agents:make_life(inf, [], [], false, Life),
     request(Way, Program, Hash, Life, Agent, Kind, Request),
     host_property(g, address(Address)),
@@ -272,7 +273,7 @@ test(paths_of_peers_are_refused, Loads == 0) :-
                      loads(Loads) ))).
 
 arrives(Program) :-
-    typhon_programs:program_hash(Program, Hash),
+    typhon_code:program_hash(Program, Hash),
     typhon_agents:make_life(inf, [], [], false, Life),
     outcome(typhon_gate:gate(t, from('127.0.0.1:1', Program, newborn)
                                 - entrant(x, Hash, Life, state([], []), []),
@@ -298,8 +299,7 @@ read_with_operator(Op) :-
     directory_file_path(Dir, 'agent.pl', File),
     write_file(File, ':- agent(a).~n:- use_module(library(free)).~nmain.~n\c
                       a ===> b.~nsee(X) :- given(X).~n', []),
-    typhon_programs:program_read(File, program(_, _, _, Clauses), _, _, _, _,
-                                 _),
+    program_read(File, program(_, _, _, Clauses), _, _, _, _, _),
     append(_, [Op,_], Clauses),
     capturing(agent_check(File), Messages),
     assertion(Messages = [informational-_]).

@@ -3,8 +3,7 @@
           ]).
 :- use_module(library(lists), [append/3]).
 :- use_module(library(occurs), [sub_term/2]).
-:- use_module(bodies, [goals_body/2]).
-:- use_module(libraries, [declared_meta/3]).
+:- use_module('../kernel/program', [declared_meta/3, goals_body/2]).
 
 /** <module> Dicts in clauses: Map.key as a call
 

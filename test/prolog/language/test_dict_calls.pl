@@ -1,6 +1,6 @@
 :- module(test_dict_calls, []).
-:- use_module('../../../lib/common').
-:- use_module('../../../lib/fixtures').
+:- use_module('../../lib/common').
+:- use_module('../../lib/fixtures').
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
 

@@ -5,12 +5,9 @@
             source_settled/1,           % +Sources
             source_same/1,              % +Sources
             declaration/4,              % +Kind, +Term, -Name, -Options
-            indicator_in/2,             % +PIs, ?PI
-            clause_parts/3,             % +Clause, -Head, -Body
             reader_directive/1,         % +Directive
             program_file/2,             % +Spec, -File
-            files_beside/3,             % +File, +Dir, -Files
-            path_below/1                % @Path
+            files_beside/3              % +File, +Dir, -Files
           ]).
 
 /** <module> Clause files as terms with their locations
@@ -32,12 +29,6 @@ when its size or its time has changed.  A file that was changed within two
 seconds before it was read may change again without changing either: it is not
 settled, and callers must not rely on it.
 
-The file search paths `agents` and `payloads` are defined here. agents(census) is
-agents/census.pl in the working directory, else in the directory of this pack.
-More directories are declared as for any search path, by clauses for
-user:file_search_path/2.  Where library(typhon) is not that of an installed
-pack, `library` also finds the one that is loaded.
-
 *Threading*: any thread.
 */
 
@@ -46,18 +37,12 @@ pack, `library` also finds the one that is loaded.
               [existence_error/2, must_be/2, permission_error/3]).
 :- autoload(library(filesex), [directory_file_path/3, directory_member/3]).
 :- use_module(library(lists), [member/2, memberchk/2, nth1/3]).
-:- use_module('../base/names', [names_near/3]).
-:- use_module(dict_calls, [dict_calls/2]).
-:- use_module(libraries,
+:- use_module('../kernel/base/names', [names_near/3]).
+:- use_module('../kernel/program',
               [import_operators/2, library_import/2, with_scratch_module/2]).
+:- use_module(dict_calls, [dict_calls/2]).
 
-:- dynamic
-    root/1,
-    user:file_search_path/2.
-
-:- multifile
-    typhon_names:known/2,
-    user:file_search_path/2.
+:- multifile typhon_names:known/2.
 
 %!  source_terms(+Spec, -Located:list(pair), -Sources:list, -Errors:list,
 %!               -Warnings:list) is det.
@@ -347,79 +332,9 @@ declaration(Kind, (:- Directive), Name, Options) :-
     ),
     atom(Name).
 
-%!  indicator_in(+PIs, ?PI) is nondet.
-%
-%   PI is one of PIs, in the form of the argument of dynamic/1.
-
-indicator_in(Var, _) :- var(Var), !, fail.
-indicator_in([A|B], PI) :- !, ( indicator_in(A, PI) ; indicator_in(B, PI) ).
-indicator_in((A,B), PI) :- !, ( indicator_in(A, PI) ; indicator_in(B, PI) ).
-indicator_in(Name/Arity, Name/Arity) :- atom(Name), integer(Arity).
-
-%!  clause_parts(+Clause, -Head, -Body) is det.
-%
-%   Body is `true` if Clause is a fact.
-
-clause_parts(Var, Var, true) :-
-    var(Var),
-    !.
-clause_parts((Head:-Body), Head, Body) :-
-    !.
-clause_parts(Head, Head, true).
-
                 /*******************************
                 *            PATHS             *
                 *******************************/
-
-%   The root of the pack is four folders up, whatever their names.
-
-:- module_property(typhon_source, file(Source)),
-   file_directory_name(Source, Dir),
-   absolute_file_name('../../../..', Root,
-                      [relative_to(Dir), file_type(directory)]),
-   retractall(root(_)),
-   assertz(root(Root)).
-
-user:file_search_path(agents, Dir) :-
-    program_directory(agents, Dir).
-user:file_search_path(payloads, Dir) :-
-    program_directory(payloads, Dir).
-
-%   In a clone of the repository library(typhon) belongs to no pack: agents
-%   whose programs import it must find the one that is loaded.
-
-:- module_property(typhon_source, file(Source)),
-   file_directory_name(Source, Dir),
-   absolute_file_name('../../..', Prolog,
-                      [relative_to(Dir), file_type(directory)]),
-   (   absolute_file_name(library(typhon), File,
-                          [ file_type(prolog), access(read),
-                            file_errors(fail) ]),
-       file_directory_name(File, Prolog)
-   ->  true
-   ;   asserta(user:file_search_path(library, Prolog))
-   ).
-
-%!  path_below(@Path) is semidet.
-%
-%   Path, Name or Folder/Name, does not leave the folder in which it is looked
-%   for.
-
-path_below(Path) :-
-    atomic(Path),
-    \+ sub_atom(Path, _, _, _, '..'),
-    \+ is_absolute_file_name(Path).
-path_below(Path) :-
-    compound(Path),
-    Path = Folder/Name,
-    path_below(Folder),
-    path_below(Name).
-
-program_directory(Kind, Dir) :-
-    (   working_directory(Parent, Parent)
-    ;   root(Parent)
-    ),
-    directory_file_path(Parent, Kind, Dir).
 
 %!  program_file(+Spec, -File) is det.
 %!  included_file(+Spec, +Includer, -File) is det.

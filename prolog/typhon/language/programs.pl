@@ -9,7 +9,6 @@
             in_file_order/3,            % +Problems, +Located, -Ordered
             problem_error/3,            % +Problem, +Others, -Error
             advice_text/2,              % +Advice, -Text
-            program_hash/2,             % +Program, -Hash
             payload_python/3,           % +Payload, -Name, -Source
             file_parts/4,               % +Kind, +Located, -Parts, -Problems
             part/3,                     % +What, +Parts, -Value
@@ -44,26 +43,24 @@ its exports at the time of reading.
 *Threading*: any thread. One mutex to add a program; readers need none.
 */
 
-:- use_module(library(apply), [maplist/2, maplist/3, partition/4]).
+:- use_module(library(apply), [maplist/2, maplist/3, maplist/4, partition/4]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [is_of_type/2, must_be/2, type_error/2]).
 :- use_module(library(lists),
-              [append/3, member/2, memberchk/2, nth1/3, selectchk/3]).
+              [ append/3, member/2, memberchk/2, nth1/3, same_length/2,
+                selectchk/3 ]).
 :- use_module(library(pairs), [pairs_values/2]).
 :- autoload(library(readutil), [read_file_to_string/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module(library(sha), [hash_atom/2, sha_hash/3]).
-:- use_module('../base/names', [names_near/3]).
-:- use_module('../base/on_demand', [on_demand_load/2]).
-:- use_module('../base/prolog_faults', [forget_erased/0]).
-:- use_module(bodies, [control/1]).
-:- use_module(libraries, [import_fault/2, library_import/2]).
-:- use_module(mobile, [mobile_predicates/3]).
+:- use_module('../kernel/base/names', [names_near/3]).
+:- use_module('../kernel/base/on_demand', [on_demand_load/2]).
+:- use_module('../kernel/base/prolog_faults', [forget_erased/0]).
+:- use_module('../kernel/program',
+              [ clause_parts/3, control/1, import_fault/2, indicator_in/2,
+                library_import/2, mobile_predicates/3, program_hash/2 ]).
 :- use_module(source,
-              [ clause_parts/3, declaration/4, indicator_in/2, program_file/2,
-                reader_directive/1, source_same/1, source_settled/1,
-                source_terms/5 ]).
-:- use_module(places, [places/2, places_named/4]).
+              [ declaration/4, program_file/2, reader_directive/1,
+                source_same/1, source_settled/1, source_terms/5 ]).
 
 :- setting(typhon_loaded:files, nonneg, 64, "Programs remembered as they were read").
 
@@ -261,27 +258,44 @@ position(Located, Problem, N-Problem) :-
     ).
 
                 /*******************************
-                *             HASH             *
+                *            PLACES            *
                 *******************************/
 
-%!  program_hash(+Program, -Hash:atom) is det.
+%   places(+Locations:list, -Places) is det.
 %
-%   The name of Program: SHA-256 of its canonical text, the same on every
-%   Prolog version and word size.
+%   Locations are those of the clauses, see typhon_source.
 
-program_hash(Program, Hash) :-
-    Program = program(_, State, Libraries, Clauses),
-    with_output_to(string(Text),
-                   forall(member(Term, [State,Libraries|Clauses]),
-                          print_canonical(Term))),
-    sha_hash(Text, Bytes, [algorithm(sha256), encoding(utf8)]),
-    hash_atom(Bytes, Hash).
+places([File:Line|Locations], [File-[Line|Lines]|Places]) :-
+    !,
+    in_file(Locations, File, Lines, Rest),
+    places(Rest, Places).
+places(_, []).
 
-print_canonical(Term) :-
-    \+ \+ ( numbervars(Term, 0, _, [functor_name('$typhon_variable')]),
-            write_term(Term, [ quoted(true), ignore_ops(true) ]),
-            nl
-          ).
+in_file([File:Line|Locations], File, [Line|Lines], Rest) :-
+    !,
+    in_file(Locations, File, Lines, Rest).
+in_file(Rest, _, [], Rest).
+
+%   places_named(+Places0, +Clauses, +Sources, -Places) is det.
+%
+%   Places are Places0, of Clauses, with the names of variables from Sources,
+%   see source_terms/5.
+
+places_named([], _, _, Places) =>
+    Places = [].
+places_named(Places0, Clauses, Sources, Places) =>
+    findall(File:Line, ( member(File-Lines, Places0), member(Line, Lines) ),
+            Locations),
+    maplist(names_of(Sources), Locations, Clauses, Lists),
+    append(Places0, [names(Lists)], Places).
+
+names_of(Sources, Location, Clause, Names) :-
+    (   findall(Found, member(names(Location, Found), Sources), [Names0]),
+        term_variables(Clause, Variables),
+        same_length(Variables, Names0)
+    ->  Names = Names0
+    ;   Names = []
+    ).
 
                 /*******************************
                 *            PYTHON            *
