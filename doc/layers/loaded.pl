@@ -1,5 +1,6 @@
 :- module(layers_loaded, [loaded_problem/1]).   % -Problem
 :- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(occurs), [sub_term/2]).
 :- use_module(library(prolog_codewalk), [prolog_walk_code/1]).
 :- use_module(tree).
 
@@ -9,7 +10,9 @@ All modules of Typhon are loaded, as in a process without autoloading:
 
   - each inherits from `system`, so that no definition of a user is in its way;
   - each imports, or declares by autoload/2, what it calls, also in arguments
-    of meta predicates.
+    of meta predicates;
+  - where clauses are stored as they are read, see typhon_compiling, nothing in
+    them would be expanded.
 
 *Threading*: the main thread.
 */
@@ -26,6 +29,27 @@ loaded_problem(Problem) :-
                            on_trace(layers_loaded:keep) ]),
         missing(Module, PI),
         Problem = not_imported(Module, PI)
+    ;   product_module(File, Module),
+        typhon_compiling:is_plain(File),
+        expanded(Module, PI),
+        Problem = expanded(Module, PI)
+    ).
+
+expanded(Module, Name/Arity) :-
+    module_property(Module, class(user)),
+    '$c_current_predicate'(_, Module:Head),
+    \+ '$get_predicate_attribute'(Module:Head, imported, _),
+    '$get_predicate_attribute'(Module:Head, number_of_clauses, _),
+    clause(Module:Head, Body),
+    once(( sub_term(Part, Head-Body), is_expanded(Part) )),
+    functor(Head, Name, Arity).
+
+is_expanded(Part) :-
+    compound(Part),
+    (   Part = (Parameters>>_)
+    ->  nonvar(Parameters),
+        ( is_list(Parameters) ; Parameters = _/_ )
+    ;   compound_name_arity(Part, '.', 2)
     ).
 
 product_module(File, Module) :-

@@ -96,8 +96,10 @@ typed(Kind, Name, Term) :-
     memberchk(Kind, [agents, payloads]),
     !,
     atomic_list_concat([First|Parts], /, Name),
-    foldl([Part,Path,Path/Part]>>true, Parts, First, Term).
+    foldl(within, Parts, First, Term).
 typed(_, Name, Name).
+
+within(Part, Path, Path/Part).
 
                 /*******************************
                 *      BACK FROM THE CURSOR    *

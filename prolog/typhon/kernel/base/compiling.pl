@@ -93,9 +93,64 @@ own_file(File) :-
 inherits_from_system(Module) :-
     atom(Module),
     prolog_load_context(source, File),
-    own_file(File).
+    own_file(File),
+    note_plain(File).
 
 system:term_expansion((:- module(Module, Exports)),
                       [ (:- module(Module, Exports)),
                         (:- system:set_module(Module:base(system))) ]) :-
     typhon_compiling:inherits_from_system(Module).
+
+                /*******************************
+                *            CLAUSES           *
+                *******************************/
+
+:- dynamic plain/1.                     % File: nothing in it is to be expanded
+
+note_plain(File) :-
+    (   is_plain(File),
+        \+ plain(File)
+    ->  assertz(plain(File))
+    ;   true
+    ).
+
+%   is_plain(+File) is semidet: clauses in File are stored as they are read, as
+%   they have neither lambda expressions nor functions on dicts, see
+%   doc/layers/loaded.pl.  The search for these takes two fifths of the time in
+%   which the library is loaded.
+
+is_plain(File) :-
+    library(Library),
+    atom_concat(Library, Path, File),
+    \+ sub_atom(Path, 0, _, _, 'typhon/tools/page/'),
+    member(Folder, [ 'typhon/kernel/', 'typhon/language/', 'typhon/network/',
+                     'typhon/options/', 'typhon/tools/' ]),
+    sub_atom(Path, 0, _, _, Folder),
+    !.
+
+:- public stored/1.
+
+%   stored(+Clause) is semidet: Clause has been stored, and is not expanded.
+%   Clauses of hooks are left to typhon_on_demand, rules of grammars to Prolog.
+%   Programs that only read a file, as prolog_xref does, get its clauses.
+
+stored(Clause) :-
+    prolog_load_context(source, File),
+    plain(File),
+    clause_head(Clause, Head),
+    \+ not_stored(Head),
+    \+ current_prolog_flag(xref, true),
+    '$compile_term'(Clause, _, File, []).
+
+clause_head((Head:-_), Head) :- !.
+clause_head((Head=>_), Head) :- !.
+clause_head(Head, Head).
+
+not_stored(_:_).
+not_stored((:-_)).
+not_stored((_-->_)).
+not_stored(begin_of_file).
+not_stored(end_of_file).
+
+system:term_expansion(Clause, []) :-
+    typhon_compiling:stored(Clause).
