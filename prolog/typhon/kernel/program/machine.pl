@@ -138,6 +138,12 @@ continue([Goal|Goals], X, Base, Out) :-
     Goal == true,
     !,
     continue(Goals, X, Base, Out).
+continue([Goal|Goals], X, Base, Out) :-
+    X = compiled(Program, Agent),
+    nonvar(Goal),
+    Goal = '$k'(Place, Vars),
+    !,
+    @(Program:'$k'(Place, Vars, Goals, X, Base, Out), Agent).
 continue(Goals, X, Base, Out) :-
     (   X = compiled(Program, Agent),
         Goals = [Goal|_],

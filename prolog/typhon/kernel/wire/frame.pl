@@ -262,7 +262,8 @@ mark_kind(=, Id, answer(Id)).
 mobile_term(Term) :-
     (   acyclic_term(Term),
         term_attvars(Term, []),
-        serialized(Term, _)
+        catch(fast_term_serialized(Term, _),
+              error(permission_error(_, _, _), _), fail)
     ->  true
     ;   refuse(Term)
     ).
