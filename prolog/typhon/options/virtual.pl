@@ -60,7 +60,7 @@ typhon_time:apart(virtual, 'virtual:0').
 
 typhon_time:repeats(virtual, 'v.').
 
-typhon_time:clock(virtual, typhon_virtual_loop:virtual_now).
+typhon_time:clock(virtual, typhon_virtual_now).
 
 %   Time begins at 0.0 and stands still.  Stopping also works while time is
 %   held: queued work is discarded, and a running goal is interrupted.

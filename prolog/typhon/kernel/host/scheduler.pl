@@ -641,11 +641,6 @@ scheduler_limited(Host, Boolean) :-
     ;   assertz(limited(Host))
     ).
 
-limited(Host1, Host2) :-
-    limited(_),                         % usually no host is
-    ( limited(Host1) ; limited(Host2) ),
-    !.
-
 %!  agent_parked(?Agent) is nondet.
 %
 %   Agent waits for a turn on its host, which is limited. The option defines
@@ -671,7 +666,11 @@ schedule(Host, Agent) :-
 %   hop.
 
 schedule_stays(Here, There) :-
-    \+ limited(Here, There),
+    (   limited(_)                      % usually no host is
+    ->  \+ limited(Here),
+        \+ limited(There)
+    ;   true
+    ),
     time_alone.
 
 %!  schedule_here(+Host, +Kind, :Turn) is semidet.

@@ -7,6 +7,7 @@
             time_apart/2,               % ?Kind, -Address
             time_repeats/2,             % ?Kind, -Mark
             time_now/1,                 % -Stamp
+            time_stands/0,
             time_work/1,                % +Work
             time_alone/0,
             time_here/2,                % +Agents, :Turn
@@ -62,7 +63,7 @@ experiments are written in host seconds and run as fast as Rate says.
 :- dynamic
     state/2,
     time_kind/1,                        % Kind: while it runs
-    own_clock/1,                        % Now, as in clock/2: while it runs
+    own_clock/1,                        % Flag, as in clock/2: while it runs
     clock/3.                            % Host, Epoch, Rate
 
 :- multifile
@@ -75,8 +76,9 @@ experiments are written in host seconds and run as fast as Rate says.
     signal/2,                           % Kind, Goal: see time_signal/1
     hold/2,                             % Kind, Seconds: see time_hold/1
     let_go/2,                           % Kind, Agents: see time_let_go/1
-    clock/2,                            % Kind, Now: call(Now, Stamp) is the time, if
-                                        % not monotonic_time/1
+    clock/2,                            % Kind, Flag: it holds the time, which stands
+                                        % still while a goal runs; if there is none,
+                                        % the time is monotonic_time/1
     wanted/2,                           % Option, Kind: see time_wanted/2
     apart/2,                            % Kind, Address: see time_apart/2
     repeats/2,                          % Kind, Mark: see time_repeats/2
@@ -102,7 +104,7 @@ time_start(Kind) :-
     !.
 time_start(Kind) :-
     starts(Kind),
-    forall(clock(Kind, Now), assertz(own_clock(Now))),
+    forall(clock(Kind, Flag), assertz(own_clock(Flag))),
     assertz(time_kind(Kind)).
 
 %!  time_stop is det.
@@ -167,11 +169,18 @@ time_repeats(Kind, Mark) :-
 %   The time now, of the clock of the runtime.
 
 time_now(Stamp) :-
-    own_clock(Now),
+    own_clock(Flag),
     !,
-    call(Now, Stamp).
+    get_flag(Flag, Stamp).
 time_now(Stamp) :-
     monotonic_time(Stamp).
+
+%!  time_stands is semidet.
+%
+%   No time passes while a goal runs.
+
+time_stands :-
+    own_clock(_).
 
 %!  alarm_set(+Stamp, +Agent, +Token) is det.
 %

@@ -116,8 +116,8 @@ virtual_doing(Work) :-
 
 virtual_alone :-
     nb_current(typhon_virtual_work, doing(_, 0, Waiting, Queue)),
-    \+ has_messages(Queue),
-    \+ ( member(Waits, Waiting), is_satisfied(Waits) ),
+    message_queue_property(Queue, size(0)),
+    none_satisfied(Waiting),
     count_step.
 
 %!  virtual_state(-State) is semidet.
@@ -330,30 +330,39 @@ ends_at(End, waits(_, _, End0)) :-
     number(End0),
     End0 =< End.
 
+%   Alarms that were set too late go off now: time does not go back.
+
 set_time(Stamp) :-
-    flag(typhon_virtual_now, Now, max(Now, float(Stamp))).
+    virtual_now(Now),
+    (   Stamp > Now
+    ->  Later is float(Stamp),
+        set_flag(typhon_virtual_now, Later)
+    ;   true
+    ).
 
 fire_alarm(Agent-Token) :-
     debug(typhon(scheduler), 'alarm ~p of ~p', [Token, Agent]),
     catch(ignore(typhon_scheduler:fire(Agent, Token)), error(Formal, Where),
           print_error(error, error(Formal, Where))).
 
-has_messages(Queue) :-
-    message_queue_property(Queue, size(Size)),
-    Size > 0.
-
 %   notify_satisfied(+Waiting0, -Waiting): notify the callers whose queue holds
 %   a message; Waiting are the others.
 
 notify_satisfied(Waiting, Waiting) :-
-    \+ ( member(Waits, Waiting), is_satisfied(Waits) ),
+    none_satisfied(Waiting),
     !.
 notify_satisfied(Waiting0, Waiting) :-
     partition(is_satisfied, Waiting0, Satisfied, Waiting),
     forall(member(waits(Reply, _, _), Satisfied), reply(Reply, there)).
 
-is_satisfied(waits(_, Queue, _)) :-
-    catch(has_messages(Queue), error(existence_error(_, _), _), true).
+is_satisfied(Waits) :-
+    \+ none_satisfied([Waits]).
+
+none_satisfied([]).
+none_satisfied([waits(_, Queue, _)|Waiting]) :-
+    catch(message_queue_property(Queue, size(0)),
+          error(existence_error(_, _), _), fail),
+    none_satisfied(Waiting).
 
 reply_late(Waiting) :-
     forall(member(waits(Reply, _, _), Waiting), reply(Reply, late)).
