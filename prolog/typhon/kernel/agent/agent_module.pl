@@ -7,7 +7,7 @@
             agent_clauses/3,            % +Module, +Clauses0, -Clauses
             agent_add/2,                % +Clauses, +Module
             agent_state/2,              % +Module, -State
-            agent_state_mobile/3,       % +Module, +Since, -Until
+            agent_state_mobile/4,       % +Module, +Since, -Until, -Bound
             agent_links/4,              % +Module, +Place0, +Place, -Links
             agent_relink/2,             % +Module, +Links
             agent_handles/2,            % +Program, +Module
@@ -240,30 +240,57 @@ split([Item|Items], Empty, Clauses) :-
         split(Items, Empty, Clauses1)
     ).
 
-%!  agent_state_mobile(+Module, +Since:integer, -Until:integer) is det.
+%!  agent_state_mobile(+Module, +Since:integer, -Until:integer, -Bound) is det.
 %
 %   The clauses of the predicates of the state that have changed since the
 %   generation Since can travel; Until is the Since of the next call.  The first
-%   call passes 0.  Mostly one fact has changed: to check a few clauses one by
-%   one is quicker than to collect them.
+%   call passes 0.  Bound is `free` if Module holds nothing but the state that
+%   travels and links to its program and the vocabulary, which all places have;
+%   else `bound`.
 %
 %   @error type_error(mobile_term, Culprit)
 
-agent_state_mobile(Module, Since, Until) :-
-    Latest = latest(Since),
+agent_state_mobile(Module, Since, Until, Bound) :-
+    State = state(Since, free),
     (   '$c_current_predicate'(_, Module:Head),
-        '$get_predicate_attribute'(Module:Head, last_modified_generation, Last),
-        Last > Since,                   % tested first: few changed
-        '$get_predicate_attribute'(Module:Head, (dynamic), 1),
-        \+ '$get_predicate_attribute'(Module:Head, imported, _),
-        '$get_predicate_attribute'(Module:Head, number_of_clauses, Count),
-        clauses_mobile(Count, Module:Head),
-        arg(1, Latest, Last0),
-        Last > Last0,
-        nb_setarg(1, Latest, Last),
+        (   '$get_predicate_attribute'(Module:Head, imported, From)
+        ->  \+ is_link(Module, Head, From),
+            nb_setarg(2, State, bound)
+        ;   '$get_predicate_attribute'(Module:Head, (dynamic), 1)
+        ->  '$get_predicate_attribute'(Module:Head, last_modified_generation,
+                                       Last),
+            ( Last > Since ; Last =:= 0 ),  % few changed
+            state_mobile(Module:Head, Last, State)
+        ;   '$get_predicate_attribute'(Module:Head, defined, 1),
+            nb_setarg(2, State, bound)
+        ),
         fail
-    ;   arg(1, Latest, Until)
+    ;   State = state(Until, Bound)
     ).
+
+is_link(Module, Head, From) :-
+    (   Base = typhon_vocabulary
+    ;   agent_code(Module, Base)
+    ),
+    (   From == Base
+    ;   '$get_predicate_attribute'(Base:Head, imported, From)
+    ),
+    !.
+
+%   state_mobile(:Head, +Last, !State): State, state(Until, Bound), includes the
+%   predicate of Head, which changed at Last.
+
+state_mobile(Head, Last, State) :-
+    '$get_predicate_attribute'(Head, number_of_clauses, Count),
+    clauses_mobile(Count, Head),
+    arg(1, State, Last0),
+    Until is max(Last, Last0),
+    nb_setarg(1, State, Until),
+    '$get_predicate_attribute'(Head, (thread_local), 1),
+    nb_setarg(2, State, bound).
+
+%   Mostly one fact has changed: to check a few clauses one by one is quicker
+%   than to collect them.
 
 clauses_mobile(Count, Module:Head) :-
     (   Count > 4
@@ -276,18 +303,14 @@ clauses_mobile(Count, Module:Head) :-
 %!  agent_links(+Module, +Place0, +Place, -Links) is semidet.
 %
 %   Links is Above0-Above: the modules from which the agent in Module imports on
-%   Place0, and is to import on Place.  Fails if Module holds anything but the
-%   state that travels and links to its program and the vocabulary, which are
-%   the same on both places.
+%   Place0, and is to import on Place.  Fails if it runs another variant there.
 
 agent_links(Module, Place0, Place, Above0-Above) :-
     (   typhon_agent_module:variant(_, _)
     ->  same_variant(Place0, Place, Module, Above0, Above)
     ;   Above0 = Place0,
         Above = Place
-    ),
-    \+ ( '$c_current_predicate'(_, Module:Head),
-         bound_here(Module, Above0, Head) ).
+    ).
 
 %!  agent_relink(+Module, +Links) is det.
 %
@@ -312,26 +335,6 @@ place_above(Place, View, Variant) :-
     View = View0,
     Variant = Variant0.
 place_above(Place, Place, none).
-
-bound_here(Module, Place0, Head) :-
-    '$get_predicate_attribute'(Module:Head, imported, From),
-    !,
-    \+ everywhere(Module, Place0, Head, From).
-bound_here(Module, _, Head) :-
-    '$get_predicate_attribute'(Module:Head, (dynamic), 1),
-    !,
-    '$get_predicate_attribute'(Module:Head, (thread_local), 1).
-bound_here(Module, _, Head) :-
-    '$get_predicate_attribute'(Module:Head, defined, 1).
-
-everywhere(Module, Place0, Head, From) :-
-    (   Base = typhon_vocabulary
-    ;   import_module(Module, Base), Base \== Place0
-    ),
-    (   From == Base
-    ;   '$get_predicate_attribute'(Base:Head, imported, From)
-    ),
-    !.
 
 %!  agent_handles(+Program, +Module) is semidet.
 %

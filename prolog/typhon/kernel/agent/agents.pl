@@ -9,6 +9,8 @@
             agent_remove/2,             % +Id, -Orders
             agent_mobile/6,             % +Id, -Host, -Module, -Hash, -Life,
                                         % -Until
+            agent_sets_out/7,           % +Id, +Host, -Module, -Hash, -Life,
+                                        % -Hops, -Until
             agent_move/5,               % +Id, +Host, +Module, +Life, +Until
             agent_passes/6,             % +Id, +Host, +Module, +Hash, +Life,
                                         % +Until
@@ -42,7 +44,6 @@
             set_extras_of_life/3,       % +Extras, +Life0, -Life
             life_may_move/2,            % +Life, -May
             life_hop/3,                 % +Life0, -Life, -Hops
-            life_goes/3,                % +Life0, -Life, -Hops
             life_came/2,                % @Life, -Hops
             life_before/2,              % +Life, -Life0
             life_clone/3                % +Id, +Life0, -Life
@@ -204,11 +205,28 @@ state_destroy(Id, Module) :-
 %!  agent_mobile(+Id, -Host, -Module, -Hash, -Life, -Until:integer) is semidet.
 %
 %   As agent/5, for an agent that is to travel.  Its state is known to be mobile
-%   as of generation Until, see agent_state_mobile/3; 0 if it was not checked.
+%   as of generation Until, see agent_state_mobile/4; 0 if it was not checked.
 
 agent_mobile(Id, Host, Module, Hash, Life, Until) :-
     record(Id, Host, Module, Hash, Life, Until),
     !.
+
+%!  agent_sets_out(+Id, +Host, -Module, -Hash, -Life, -Hops, -Until) is semidet.
+%
+%   As agent_mobile/6, for an agent on Host that may move and carries no extras.
+%   Life is its life with one more hop, number Hops.
+
+agent_sets_out(Id, Host, Module, Hash, Life, Hops, Until) :-
+    record(Id, Host, Module, Hash, Life0, Until),
+    !,
+    Life0 = life(Parent, Hops0, Most, Tokens, Payloads, false, []),
+    (   Most == inf
+    ->  true
+    ;   integer(Most),
+        Hops0 < Most
+    ),
+    Hops is Hops0+1,
+    Life = life(Parent, Hops, Most, Tokens, Payloads, false, []).
 
 %!  agent_move(+Id, +Host, +Module, +Life, +Until:integer) is det.
 %
@@ -518,19 +536,6 @@ life_may_move(life(_, Hops, Most, _, _, Static, _), May) :-
 
 life_hop(life(Parent, Hops0, Most, Tokens, Payloads, Static, Extras),
          life(Parent, Hops, Most, Tokens, Payloads, Static, Extras), Hops) :-
-    Hops is Hops0+1.
-
-%!  life_goes(+Life0, -Life, -Hops:integer) is semidet.
-%
-%   As life_hop/3, for an agent that may move and carries no extras.
-
-life_goes(life(Parent, Hops0, Most, Tokens, Payloads, false, []),
-          life(Parent, Hops, Most, Tokens, Payloads, false, []), Hops) :-
-    (   Most == inf
-    ->  true
-    ;   integer(Most),
-        Hops0 < Most
-    ),
     Hops is Hops0+1.
 
 %!  life_came(@Life, -Hops:integer) is semidet.

@@ -14,10 +14,11 @@
             host_load/2,                % +Name, -Load
             host_hop_times/3,           % +Name, ?Direction, -Times
             host_hop/3,                 % +Name, +Direction, +Seconds
-            host_plain/2,               % ?Name, -Plain
+            host_plain/3,               % +Host, ?Name, -Plain
             host_plain_leaves/2,        % +Name, -Since
             host_came/2,                % +Name-Plain, +Since
             host_left/2,                % +Name, +Since
+            host_passage/5,             % +Here, +Host, -From, -To, -Since
             host_passes/4,              % +From, +Name-To, +Since, -Seconds
             host_neighbours/2,          % +Name, -Addresses
             host_link/3,                % +Name, +Address, +Cost
@@ -57,7 +58,7 @@ would lock for each of them.
               [endpoint_address/1, endpoint_parts/3, must_be_endpoint/1]).
 :- use_module(events, [event/4]).
 :- use_module(host_parts, [parts/3, parts_compile/1, parts_forget/1]).
-:- use_module(time, [clock/3, host_time/2, time_now/1]).
+:- use_module(time, [clock/3, host_time/2, time_now/1, time_stands/0]).
 
 :- dynamic
     host/3,                             % Name, Address, Place
@@ -66,7 +67,7 @@ would lock for each of them.
                                         % it admits agents
     counts/4,                           % Name, Load, In, Out: a flag, and twice
                                         % flags(Count, Min, Sum, Max) of hops
-    host_plain/2,                       % Name, Plain
+    host_plain/3,                       % Name, or its address, Name, Plain
     neighbour/2,                        % Name, Address
     cost/3.                             % Name, Address, Cost: of a link, if not 1
 
@@ -102,10 +103,11 @@ begin_admitting(Name) :-
     counts(Name, Load, _, _),
     assertz(admits(Name, Tokens, Capacity, Load)).
 
-%!  host_plain(?Name, -Plain) is nondet.
+%!  host_plain(+Host, ?Name, -Plain) is semidet.
 %
-%   The host admits agents, has no parts, and asks for no token, so the kernel
-%   alone handles its hops.  Plain is one fact with all that a hop needs of it.
+%   Host is Name or its address.  The host admits agents, has no parts, and asks
+%   for no token, so the kernel alone handles its hops.  Plain is one fact with
+%   all that a hop needs of it.
 
 note_plain(Name) :-
     (   \+ parts(_, Name, _),
@@ -114,10 +116,16 @@ note_plain(Name) :-
         asked(Name, hop_time(Delay), none),
         clock(Name, Epoch, Rate),
         counts(Name, _, In, Out)
-    ->  assertz(host_plain(Name, plain(Address, Place, Delay, Epoch, Rate,
-                                       Capacity, Load, In, Out)))
+    ->  Plain = plain(Address, Place, Delay, Epoch, Rate, Capacity, Load, In,
+                      Out),
+        assertz(host_plain(Name, Name, Plain)),
+        assertz(host_plain(Address, Name, Plain))
     ;   true
     ).
+
+no_longer_plain(Name) :-
+    forall(( Host = Name ; host(Name, Host, _) ),
+           retractall(host_plain(Host, _, _))).
 
 %!  host_plain_leaves(+Name, -Since:float) is semidet.
 %
@@ -125,10 +133,28 @@ note_plain(Name) :-
 %   not plain, or delays hops.
 
 host_plain_leaves(Name, Since) :-
-    host_plain(Name, plain(_, _, none, Epoch, Rate, _, _, _, _)),
+    host_plain(Name, _, plain(_, _, none, Epoch, Rate, _, _, _, _)),
     !,
     monotonic_time(Now),
     Since is (Now-Epoch)*Rate.
+
+%!  host_passage(+Here, +Host, -From, -To, -Since) is semidet.
+%
+%   A hop from Here to Host, another host of this process, begins at Since.
+%   From and To are of the form Name-Plain.  Fails if a host is not plain, or
+%   delays hops.  Since is `now` where no time passes.
+
+host_passage(Here, Host, Here-From, Name-To, Since) :-
+    host_plain(Here, _, From),
+    From = plain(_, _, none, Epoch, Rate, _, _, _, _),
+    atom(Host),
+    host_plain(Host, Name, To),
+    Name \== Here,
+    (   time_stands
+    ->  Since = now
+    ;   monotonic_time(Now),
+        Since is (Now-Epoch)*Rate
+    ).
 
 asked(Name, Option, Default) :-
     (   host_option(Name, Option)
@@ -173,7 +199,7 @@ flags_of(Name, [Load|Flags]) :-
 %   Stop admitting agents to Name, which is about to stop.
 
 host_close(Name) :-
-    retractall(host_plain(Name, _)),
+    no_longer_plain(Name),
     retractall(admits(Name, _, _, _)).
 
 %!  host_closed(+Name) is semidet.
@@ -224,7 +250,7 @@ host_note(Name) :-
 host_put(Name, Option) :-
     functor(Option, OptionName, Arity),
     functor(Old, OptionName, Arity),
-    retractall(host_plain(Name, _)),
+    no_longer_plain(Name),
     (   host_option(Name, Old)
     ->  assertz(host_option(Name, Option)),
         once(retract(host_option(Name, Old)))
@@ -290,7 +316,7 @@ count(Flag, Change) :-
 
 %!  host_came(+Where, +Since) is semidet.
 %
-%   Count an agent that arrives at Where, Name-Plain as in host_plain/2, by a
+%   Count an agent that arrives at Where, Name-Plain as in host_plain/3, by a
 %   hop that began at Since, in host time.  Fails and counts nothing if the
 %   host is full or no longer plain.
 
@@ -338,7 +364,7 @@ host_load(Name, Load) :-
 %   at Since.
 
 host_left(Name, Since) :-
-    host_plain(Name, plain(_, _, _, Epoch, Rate, _, Load, _, Out)),
+    host_plain(Name, _, plain(_, _, _, Epoch, Rate, _, Load, _, Out)),
     !,
     monotonic_time(Now),
     Seconds is max(0.0, (Now-Epoch)*Rate-Since),
@@ -353,19 +379,22 @@ host_left(Name, Since) :-
 
 %!  host_passes(+From, +Where, +Since, -Seconds:float) is semidet.
 %
-%   Count a hop that began at Since from a plain host of this process, From as
-%   in host_plain/2, to Where, as in host_came/2.  Fails if the host of Where is
-%   full or no longer plain.
+%   Count a hop that began at Since, as in host_passage/5, from a plain host of
+%   this process to another, From and Where as in host_came/2.  Fails if the
+%   host of Where is full, or one of them is no longer plain.
 
-host_passes(plain(_, _, _, Epoch, Rate, _, Load0, _, Out), Where, Since,
-            Seconds) :-
-    Where = _-plain(_, _, _, _, _, _, _, In, _),
-    time_now(Now),
-    Seconds is max(0.0, (Now-Epoch)*Rate-Since),
-    with_mutex(typhon_host_flags, passes(Where, Load0, Out, In, Seconds)).
+host_passes(Here-From, Where, Since, Seconds) :-
+    host_plain(Here, _, From),          % it still is
+    (   Since == now
+    ->  Seconds = 0.0
+    ;   From = plain(_, _, _, Epoch, Rate, _, _, _, _),
+        time_now(Now),
+        Seconds is max(0.0, (Now-Epoch)*Rate-Since)
+    ),
+    with_mutex(typhon_host_flags, passes(From, Where, Seconds)).
 
-passes(Where, Load0, Out, In, Seconds) :-
-    Where = _-plain(_, _, _, _, _, _, Load, _, _),
+passes(plain(_, _, _, _, _, _, Load0, _, Out), Where, Seconds) :-
+    Where = _-plain(_, _, _, _, _, _, Load, In, _),
     get_flag(Load, Count),
     place_taken(Where, Count),
     left(Load0, Out, Seconds),
@@ -381,7 +410,7 @@ place_taken(Name-Plain, Count) :-
     Count < Capacity,
     Count1 is Count+1,
     set_flag(Load, Count1),
-    (   host_plain(Name, Plain)
+    (   host_plain(Name, _, Plain)
     ->  true
     ;   set_flag(Load, Count),
         fail
@@ -396,7 +425,7 @@ came(Where, In, Seconds) :-
     hop_time_add(In, Seconds).
 
 left(Load, Out, Seconds) :-
-    count(Load, -1),
+    get_flag(Load, Count0), Count is Count0-1, set_flag(Load, Count),
     hop_time_add(Out, Seconds).
 
 %!  host_hop(+Name, +Direction, +Seconds) is det.

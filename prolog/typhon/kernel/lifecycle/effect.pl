@@ -41,24 +41,16 @@ timer.
 %!  effect(+Control, +Hole, +Goals, +Where, -Next) is det.
 %
 %   @arg Where is Id-Host
-%   @arg Next is go(Goals) if the agent goes on at once, elsewhere(Goals) if
-%        it does so on another host, else `stop`
+%   @arg Next is go(Goals) if the agent goes on at once, elsewhere(Name, Module,
+%        Goals) if it does so on the host Name, with its state in Module, else
+%        `stop`
 %   @error an error to be raised at the control predicate
 
 effect(move(Host), Hole, Goals, Id-Here, Next) :-
-    destination(Host, Dest),
-    (   Dest == local(Here)
-    ->  Hole = true,
-        Next = go(Goals)
-    ;   Dest = local(Name),
-        hop_at_once(Id, Here, Name, Hole, Goals, Next0)
+    (   hop_at_once(Id, Here, Host, Hole, Goals, Next0)
     ->  Next = Next0
-    ;   hand_over(Id, Here, Dest, Hole, Goals)
-    ->  Next = stop
-    ;   parts_call(acts, Here, [Id, move]),
-        agent(Id, _, _, _, Life),
-        life_may_move(Life, May),
-        set_out(May, Dest, Hole, Goals, Id-Here, Next)
+    ;   destination(Host, Dest),
+        move(Dest, Hole, Goals, Id-Here, Next)
     ).
 effect(clone(Role), Hole, Goals, Id-Here, go(Goals)) :-
     parts_call(acts, Here, [Id, clone]),
@@ -220,15 +212,30 @@ typhon_scheduler:kind(Id, Program) :-
                 *        MOVE AND CLONE        *
                 *******************************/
 
-set_out(static, _, _, _, Id-_, _) :-
+move(Dest, Hole, Goals, Id-Here, Next) :-
+    (   Dest == local(Here)
+    ->  Hole = true,
+        Next = go(Goals)
+    ;   hand_over(Id, Here, Dest, Hole, Goals)
+    ->  Next = stop
+    ;   parts_call(acts, Here, [Id, move]),
+        set_out(Dest, Hole, Goals, Id-Here, Next)
+    ).
+
+set_out(Dest, Hole, Goals, Id-Here, Next) :-
+    agent(Id, _, _, _, Life),
+    life_may_move(Life, May),
+    set_out(May, Life, Dest, Hole, Goals, Id-Here, Next).
+
+set_out(static, _, _, _, _, Id-_, _) :-
     permission_error(move, static_agent, Id).
-set_out(end, _, _, _, Id-_, stop) :-
+set_out(end, _, _, _, _, Id-_, stop) :-
     ignore(agent_end(Id, disposed)).
-set_out(go, Dest, Hole, Goals, Id-Here, Next) :-
+set_out(go, Life, Dest, Hole, Goals, Id-Here, Next) :-
     host_time(Here, Now),
     report_leaving(Dest, Id, Here),
     (   host_option(Here, hop_time(uniform(Min, Max)))
-    ->  hop_delay(Id, Here, Min, Max, Delay),
+    ->  hop_delay(Id, Here, Life, Min, Max, Delay),
         At is Now+Delay,
         real_time(Here, At, Stamp),
         with_agent(Id, agent_put(Id, leaving(Dest, At),
@@ -252,16 +259,15 @@ dest_address(remote(Address, _, _), Address).
 %   On a host with a seed the delay follows from the seed, the agent and the
 %   number of its hops.
 
-hop_delay(Id, Here, Min, Max, Delay) :-
+hop_delay(Id, Here, Life, Min, Max, Delay) :-
     host_option(Here, seed(Seed0)),
     !,
-    agent(Id, _, _, _, Life),
     life_hops(Life, Hops),
     agent_name(Id, Name, Number),
     chance_hash(hop(Seed0, Name, Number, Hops), Seed),
     chance_seed(Seed, Chance),
     chance_uniform(Min, Max, Delay, Chance, _).
-hop_delay(_, _, Min, Max, Delay) :-
+hop_delay(_, _, _, Min, Max, Delay) :-
     Delay is Min+random_float*(Max-Min).
 
 %   A name that no host has is handled like a host that another process lacks.
@@ -304,7 +310,5 @@ effect_order(Id, Here, Host, Goals) :-
     (   Dest == local(Here)
     ->  ignore(move_over(Id, answer(arrived))),
         with_agent(Id, agent_ready(Id, Goals))
-    ;   agent(Id, _, _, _, Life),
-        life_may_move(Life, May),
-        set_out(May, Dest, ordered, Goals, Id-Here, _)
+    ;   set_out(Dest, ordered, Goals, Id-Here, _)
     ).

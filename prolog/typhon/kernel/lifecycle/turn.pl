@@ -44,8 +44,8 @@ an agent belongs to one worker.
 :- meta_predicate turn_unit(0).
 
 :- multifile
-    engine/3,                   % Agent, Start, Engine: it runs Agent,
-                                % agent(Id, Host, Hash, Life), from Start
+    engine/3,                   % Id-Host, Start, Engine: it runs Id, which is on
+                                % Host, from Start
     limit_passed/1,             % Outcome: of the agent that this thread ran,
                                 % and that was interrupted at a limit
     unit/2,                     % Run, Conclude: call(Run, Goal) runs an agent,
@@ -233,48 +233,48 @@ perform(order(Order, Goals), Id) :-
     unit_of_work(order_obey(Order, Id, Goals)).
 perform(leave(Dest, Hole, Goals, Since), Id) :-
     unit_of_work(effect_depart(Id, Dest, Hole, Goals, Since, Next)),
-    go_on(Next, Id).
+    go_on(Next, _, turn(Id, none, none)).
 perform(run(Start), Id) :-
-    agent(Id, Host, Module, Hash, Life),
+    agent(Id, Host, Module, _, _),
     agent_code(Module, Program),
-    run_from(Start, agent(Id, Host, Hash, Life), context(Program, Module)).
+    run_from(Start, Id, Host, context(Program, Module)).
 perform(run_on(Host, Context, Goals), Id) :-
-    (   agent_here(Id, Host, _, Hash, Life)
-    ->  run_from(goals(Goals), agent(Id, Host, Hash, Life), Context)
+    (   agent_here(Id, Host, _, _, _)
+    ->  run_from(goals(Goals), Id, Host, Context)
     ;   turn_over(Id)                   % has ended
     ).
 
-run_from(Start, Agent, Context) :-
-    Agent = agent(Id, Host, _, _),
+run_from(Start, Id, Host, Context) :-
     Context = context(_, Module),
     context_set(Host, Id, Module),
-    (   engine(Agent, Start, Engine0)
+    (   engine(Id-Host, Start, Engine0)
     ->  Engine = Engine0
     ;   Engine = machine
     ),
-    turns(Start, Engine, turn(Id, Host, Context), Next),
-    go_on(Next, Id).
+    turns(Start, Engine, turn(Id, Host, Context)).
 
-%   turns(+Start, +Engine, +Turn, -Next): Next is `stop`, or elsewhere(Goals).
-
-turns(Start, Engine, Turn, Next) :-
+turns(Start, Engine, Turn) :-
     (   unit(Run, Whole)
     ->  turn_run(Engine, unit(Run), Turn, Start, Outcome, Goals0),
         arg(1, Turn, Id),
         call(Whole, Id, Outcome,
-             typhon_turn:conclude(Outcome, Goals0, Turn, Next0), Next0)
+             typhon_turn:conclude(Outcome, Goals0, Turn, Next), Next)
     ;   turn_run(Engine, none, Turn, Start, Outcome, Goals0),
-        conclude(Outcome, Goals0, Turn, Next0)
+        conclude(Outcome, Goals0, Turn, Next)
     ),
-    (   Next0 = go(Goals)
-    ->  turns(goals(Goals), Engine, Turn, Next)
-    ;   Next = Next0
-    ).
+    go_on(Next, Engine, Turn).
 
-go_on(stop, Id) :-
+go_on(stop, _, turn(Id, _, _)) :-
     turn_over(Id).
-go_on(elsewhere(Goals), Id) :-
-    perform(run(goals(Goals)), Id).
+go_on(go(Goals), Engine, Turn) :-
+    turns(goals(Goals), Engine, Turn).
+go_on(elsewhere(Host, Module, Goals), _, turn(Id, _, Context0)) :-
+    (   Context0 = context(_, Module)
+    ->  Context = Context0
+    ;   agent_code(Module, Program),
+        Context = context(Program, Module)
+    ),
+    run_from(goals(Goals), Id, Host, Context).
 
 %   An agent whose worker is interrupted is in the middle of a goal, and cannot
 %   go on.  This is not done in a cleanup handler: while an exception is

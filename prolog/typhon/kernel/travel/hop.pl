@@ -5,7 +5,7 @@
                                         % +Goals
             hand_over/5,                % +Id, +Host, +Where, +Hole, +Goals
             taken_over/4,               % +Host, +Image, +Program, +Peer
-            hop_at_once/6               % +Id, +Here, +Name, +Hole, +Goals,
+            hop_at_once/6               % +Id, +Here, +Host, +Hole, +Goals,
                                         % -Next
           ]).
 
@@ -55,10 +55,11 @@ agent; answers and taken_over/4 in the threads of the endpoint, which never wait
                 agent_handed/4, agent_here/5, agent_links/4, agent_mobile/6,
                 agent_module/4, agent_move/5, agent_on/2, agent_passes/6,
                 agent_put/3, agent_ready/2, agent_relink/2, agent_runs/1,
-                agent_state/2, agent_state_mobile/3, agent_status/3,
-                agent_thawed/5, agent_under_way/6, gate/4, image_amended/5,
-                image_handed/7, image_hash/2, image_held/2, image_plain/8,
-                life_before/2, life_goes/3, life_hop/3, mail_all/2, mail_back/2,
+                agent_sets_out/7, agent_state/2, agent_state_mobile/4,
+                agent_status/3, agent_thawed/5, agent_under_way/6, gate/4,
+                image_amended/5, image_handed/7, image_hash/2, image_held/2,
+                image_plain/8, life_before/2, life_hop/3,
+                mail_all/2, mail_back/2,
                 mail_waits/1, program_missing/2, program_sent/3, with_agent/2 ]).
 :- use_module('../base/durable',
               [commits_must_succeed/0, crash_point/1, durable_on/0]).
@@ -66,9 +67,10 @@ agent; answers and taken_over/4 in the threads of the endpoint, which never wait
 :- use_module('../host',
               [ address_parts/3, amended/5, event/4, event_subscribed/1,
                 host/3, host_came/2, host_hop/3, host_leave/1, host_left/2,
-                host_passes/4, host_plain/2, host_plain_leaves/2, host_time/2,
-                parts/3, real_time/3, schedule/2, schedule_here/3,
-                schedule_stays/2, scheduler_call/1, time_now/1 ]).
+                host_passage/5, host_passes/4, host_plain/3,
+                host_plain_leaves/2, host_time/2, parts/3, real_time/3,
+                schedule/2, schedule_here/3, schedule_stays/2,
+                scheduler_call/1 ]).
 :- use_module('../program', [code_compiled/2, plain_goals/2]).
 :- use_module('../wire',
               [ endpoint_address/1, endpoint_afterwards/1, endpoint_hand/4,
@@ -100,8 +102,8 @@ agent; answers and taken_over/4 in the threads of the endpoint, which never wait
 %!  hop(+Id, +Where, +Hole, +Goals, +Since, -Next) is det.
 %
 %   Send Id to Where, as in host_resolve/2, where it continues with Goals, Hole
-%   bound to `true`.  Next is `stop`, or elsewhere(Goals) if this worker is to
-%   continue the agent there.
+%   bound to `true`.  Next is `stop`, or elsewhere(Name, Module, Goals) if this
+%   worker is to continue the agent there, with its state in Module.
 %
 %   @arg Since is the host time of its departure
 %   @error type_error(mobile_term, Culprit)
@@ -282,9 +284,8 @@ hand_over(Id, Host, remote(Address, Name, Endpoint), Hole, Goals) :-
     host_plain_leaves(Host, Since),
     \+ durable_on,
     \+ event_subscribed(hops),
-    agent_here(Id, Host, Module, Hash, Life0),
+    agent_sets_out(Id, Host, Module, Hash, Life, Hops, _),
     !,
-    life_goes(Life0, Life, Hops),
     agent_state(Module, State),
     (   mail_waits(Id)
     ->  with_agent(Id, mail_all(Id, Mail))
@@ -388,7 +389,7 @@ thawed(Id) :-
 
 taken_over(Host, Image, known, Peer) :-
     atom(Host),
-    host_plain(Host, Plain),
+    host_plain(Host, Host, Plain),      % its name, and not its address
     \+ event_subscribed(hops),
     image_plain(Image, Id, Hash, Life, Hops, Clauses, Goals, Since),
     code_compiled(Hash, Program),
@@ -429,32 +430,27 @@ go_on(Id, _, _, Goals, later) :-
                 *       WITHIN A PROCESS       *
                 *******************************/
 
-%!  hop_at_once(+Id, +Here, +Name, +Hole, +Goals, -Next) is semidet.
+%!  hop_at_once(+Id, +Here, +Host, +Hole, +Goals, -Next) is semidet.
 %
-%   As hop_within/6, between plain hosts, for an agent that moves from Here, may
-%   move and carries no extras, if hops are not delayed and have no listener.
-%   In all other cases it fails without changes.
+%   As hop_within/6, between plain hosts, for an agent that moves from Here to
+%   Host, a name or an address, may move and carries no extras, if hops are not
+%   delayed and have no listener.  In all other cases it fails without changes.
 
-hop_at_once(Id, Here, Name, Hole, Goals, Next) :-
-    host_plain(Here, From),
-    From = plain(_, _, none, Epoch, Rate, _, _, _, _),
-    host_plain(Name, To),
+hop_at_once(Id, Here, Host, Hole, Goals, Next) :-
+    host_passage(Here, Host, From, To, Since),
     \+ event_subscribed(hops),
-    agent_mobile(Id, Here, Module, Hash, Life0, Until0),
-    life_goes(Life0, Life, Hops),
+    agent_sets_out(Id, Here, Module, Hash, Life, Hops, Until0),
     !,
-    time_now(Now),
-    Since is (Now-Epoch)*Rate,
-    agent_state_mobile(Module, Until0, Until),
+    agent_state_mobile(Module, Until0, Until, free),
     mobile_term(Life-Goals),
-    Going = going(Module, Hash, Life, Until, Since),
-    sig_atomic(passed(Id, Here-From, Name-To, Going, Hole-Goals, Hops, Next)).
+    Going = going(Module, Hash, Life, Until, Since, free),
+    sig_atomic(passed(Id, From, To, Going, Hole-Goals, Hops, Next)).
 
 %!  hop_within(+Id, +Name, +Hole, +Goals, +Since, -Next) is det.
 %
 %   Id, which departed at Since, is on host Name of this process, with Goals,
 %   its Hole bound to `true`; or it was ended meanwhile.  Next is `stop`, or
-%   elsewhere(Goals) if it keeps its worker.
+%   elsewhere(Name, Module, Goals) if it keeps its worker.
 %
 %   @error type_error(mobile_term, Culprit)
 %   @error move_refused(Address, Reason)
@@ -463,11 +459,12 @@ hop_within(Id, Name, Hole, Goals, Since, Next) :-
     agent_mobile(Id, Here, Module, Hash, Life0, Until0),
     !,
     life_hop(Life0, Life, Hops),
-    agent_state_mobile(Module, Until0, Until),  % only what has changed
+    agent_state_mobile(Module, Until0, Until, Bound),
     mobile_term(Life-Goals),
-    Going = going(Module, Hash, Life, Until, Since),
-    (   host_plain(Here, From),
-        host_plain(Name, To),
+    Going = going(Module, Hash, Life, Until, Since, Bound),
+    (   Bound == free,
+        host_plain(Here, _, From),
+        host_plain(Name, _, To),
         sig_atomic(passed(Id, Here-From, Name-To, Going, Hole-Goals, Hops,
                           Next0))
     ->  Next = Next0
@@ -488,20 +485,22 @@ passed(Id, From, To, Going, Held, Hops, Next) :-
     To = Name-plain(Address, _, _, _, _, _, _, _, _),
     arrival_finish_safely(Id, Here-Name, Address, Hops, Seconds, Next).
 
-pass(Id, Here-From, Name-To, going(Module, Hash, Life, Until, Since),
-     Hole-Goals, Next, Seconds) :-
-    host_plain(Here, From),             % it still is
+pass(Id, From, To, going(Module, Hash, Life, Until, Since, _), Hole-Goals,
+     Next, Seconds) :-
+    From = Here-plain(_, Place0, _, _, _, _, _, _, _),
+    To = Name-plain(_, Place, _, _, _, _, _, _, _),
     agent_runs(Id),
-    arg(2, From, Place0),
-    arg(2, To, Place),
     agent_links(Module, Place0, Place, Links),
-    host_passes(From, Name-To, Since, Seconds),
+    host_passes(From, To, Since, Seconds),
     !,
     agent_relink(Module, Links),
     ignore(Hole = true),
     agent_passes(Id, Name, Module, Hash, Life, Until),
-    next(running, Here-Name, Goals, Next),
-    ready_if_stopped(Next, Id, Goals).
+    (   schedule_stays(Here, Name)
+    ->  Next = elsewhere(Name, Module, Goals)
+    ;   Next = stop,
+        agent_put(Id, ready, Goals)
+    ).
 
 conclude(ok, _, _, _, _).
 conclude(ended, _, _, _, stop).
@@ -533,12 +532,12 @@ moved(Id, _, _, _, _, _, Verdict) :-
 %   inside with_agent/2, so that an order to end the agent finds it counted on
 %   the host where it is.
 
-move(Id, Here-Name, going(Module0, Hash, Life, Until, Since), Hole-Goals0,
-     Next, Seconds) :-
+move(Id, Here-Name, going(Module0, Hash, Life, Until, Since, Bound),
+     Hole-Goals0, Next, Seconds) :-
     host(Name, _, Place),
     agent_status(Id, Status, _),
-    next(Status, Here-Name, Goals, Next),
-    (   host(Here, _, Place0),
+    (   Bound == free,
+        host(Here, _, Place0),
         agent_links(Module0, Place0, Place, Links)
     ->  Module = Module0,
         Goals = Goals0,
@@ -548,22 +547,16 @@ move(Id, Here-Name, going(Module0, Hash, Life, Until, Since), Hole-Goals0,
     ),
     ignore(Hole = true),
     agent_move(Id, Name, Module, Life, Until),
-    ready_if_stopped(Next, Id, Goals),
+    (   Status == running,
+        schedule_stays(Here, Name)
+    ->  Next = elsewhere(Name, Module, Goals)
+    ;   Next = stop,
+        agent_put(Id, ready, Goals)
+    ),
     seconds(Here, Name, Since, Seconds),
     host_hop(Here, out, Seconds),
     host_hop(Name, in, Seconds),
     host_leave(Here).                   % last: a host that stops waits for it
-
-next(running, Here-Name, Goals, Next) :-
-    (   schedule_stays(Here, Name)
-    ->  Next = elsewhere(Goals)
-    ;   Next = stop
-    ).
-next(obeying, _, _, stop).
-
-ready_if_stopped(elsewhere(_), _, _).
-ready_if_stopped(stop, Id, Goals) :-
-    agent_put(Id, ready, Goals).
 
 %   One of the hosts may have been stopped meanwhile.
 
@@ -585,15 +578,12 @@ arrival_finish(Id, Here-Name, Address, Hops, Seconds, Next) :-
           [Id, Hops, Address]),
     agent_seen(Id, Address, Hops, here),
     ignore(move_over(Id, answer(arrived))),
-    arrival_event(Id, Here, Name, Seconds),
-    (   Next == stop
-    ->  schedule(Name, Id)
-    ;   true
-    ).
-
-arrival_event(Id, Here, Name, Seconds) :-
     (   event_subscribed(hops),
         host(Here, From, _)
     ->  event(hops, Name, Id, arrived(From, Seconds))
+    ;   true
+    ),
+    (   Next == stop
+    ->  schedule(Name, Id)
     ;   true
     ).

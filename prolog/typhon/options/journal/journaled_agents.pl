@@ -110,7 +110,7 @@ record_before_rest(Id, Goals) :-
 note_next(stop, _).
 note_next(go(Goals), Id) :-
     agent_note(Id, ready, Goals).
-note_next(elsewhere(Goals), Id) :-
+note_next(elsewhere(_, _, Goals), Id) :-
     agent_note(Id, ready, Goals).
 
                 /*******************************

@@ -136,8 +136,8 @@ next_goal(Id, Host, [Goal|_], held(Address, Shown)) :-
 
 typhon_turn:engine(_, resumed(Held), typhon_stepping:probe) :-
     held_parts(Held, probe(_, _), _).
-typhon_turn:engine(agent(_, Host, Hash, Life), goals(_),
-                   typhon_stepping:probe) :-
+typhon_turn:engine(Id-Host, goals(_), typhon_stepping:probe) :-
+    agent(Id, _, _, Hash, Life),
     ( traced_goals(Life) ; spied_program(Hash) ),
     !,
     \+ turn_bounded(Host).             % no limit could end a probe in time
