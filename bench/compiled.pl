@@ -1,8 +1,7 @@
 :- use_module(common).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/program),
-              [ code_install/3, code_module/2, machine_run/3 ]).
-:- use_module(library(typhon/language), [program_load/6]).
+              [ code_install/3, code_module/2, machine_run/3, program_load/6 ]).
 :- use_module(library(gensym), [gensym/2]).
 :- use_module(library(lists), [member/2, memberchk/2, numlist/3]).
 

@@ -30,7 +30,8 @@
 :- use_module(library(plunit)).
 :- use_module(library(readutil), [read_file_to_string/3, read_file_to_terms/3]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/language), [payload_load/2, program_load/6]).
+:- use_module(library(typhon/kernel/program),
+              [payload_load/2, program_load/6]).
 
 document(File) :-
     member(Pattern, ['README.md', 'doc/*.md', 'doc/course/*.md']),

@@ -14,8 +14,8 @@
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/base/json), [json_dict/2]).
-:- use_module(library(typhon/kernel/program), [vocabulary_word/2]).
-:- use_module(library(typhon/language), [payload_load/2, program_load/6]).
+:- use_module(library(typhon/kernel/program),
+              [payload_load/2, program_load/6, vocabulary_word/2]).
 
 program(Name, Path) :-
     absolute_file_name(path(Name), Path, [access(execute), file_errors(fail)]).

@@ -12,7 +12,7 @@
 :- use_module(library(lists), [append/3, member/2, nth0/3, numlist/3]).
 :- use_module(library(ordsets), [ord_union/3]).
 :- use_module(library(typhon/kernel/base/prng)).
-:- use_module(library(typhon/language), [payload_load/2]).
+:- use_module(library(typhon/kernel/program), [payload_load/2]).
 
 /** <module> Learning without a network: for tests of problems and algorithms
 

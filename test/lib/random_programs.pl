@@ -11,8 +11,7 @@
               [random/1, random_between/3, random_member/2]).
 :- use_module(library(typhon/kernel/program),
               [ code_install/3, code_module/2, fault/3, machine_run/3,
-                plain_goals/2 ]).
-:- use_module(library(typhon/language), [program_load/6]).
+                plain_goals/2, program_load/6 ]).
 
 /** <module> Random agent programs, run by all engines for comparison
 

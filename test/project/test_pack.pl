@@ -59,7 +59,7 @@ works_in(Home, Dir) :-
     make_program(Dir, elsewhere, other),
     swipl_at_home(Home, Dir,
                   [ 'use_module(library(typhon))',
-                    'use_module(library(typhon/language), [program_file/2])',
+                    'use_module(library(typhon/kernel/program), [program_file/2])',
                     'assertz(user:file_search_path(agents, elsewhere))',
                     'forall(member(F, [agents(mine), payloads(load), \c
                                        agents(other), \c
@@ -217,7 +217,7 @@ renamed(Status, Out, Err, Agent, Dir) :-
     make_program(Dir, agents, mine),
     directory_file_path(Agents, 'mine.pl', AgentFile),
     atom_string(AgentFile, Agent),
-    format(atom(Load), 'use_module(~q),use_module(library(typhon/language))',
+    format(atom(Load), 'use_module(~q),use_module(library(typhon/kernel/program))',
            [File]),
     run_swipl(['-f', none, '-g', Load,
                '-g', 'program_file(agents(mine), F), write(F)',

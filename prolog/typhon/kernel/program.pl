@@ -14,6 +14,7 @@ This is the interface of the layer: higher layers import from here.
             [ declared_meta/3, import_fault/2, import_operators/2,
               library_export/2, library_import/2, with_scratch_module/2 ]).
 :- reexport(program/places, [place/3]).
+:- reexport('program/reading').
 :- reexport(program/code,
             [ code_install/3, code_receive/2, code_module/2, code_known/2,
               code_compiled/2, code_locate/2, code_names/2, code_places/2, code_program/2,

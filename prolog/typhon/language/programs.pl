@@ -69,6 +69,7 @@ its exports at the time of reading.
                                         % oldest first
 
 :- multifile
+    typhon_on_demand:joins/2,
     payload_was_read/2,                 % Spec, Payload: was read from a file
     problem_at_goal/2,                  % +Problem0, -Problem: with the line of its goal
     advice//1,                          % +Advice: parts of the text, none where the
@@ -82,6 +83,8 @@ its exports at the time of reading.
                                         % that it calls and that nothing defines, but no
                                         % Problem for which call(Offered, Problem)
                                         % succeeds
+
+typhon_on_demand:joins(program, text).
 
 %!  program_read(+Spec, -Program, -Initial, -Kinds, -Places, -Sources,
 %!               -Doubtful) is det.

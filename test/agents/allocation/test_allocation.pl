@@ -8,7 +8,8 @@
 :- use_module(library(terms), [mapargs/3]).
 :- use_module(library(yall)).
 :- use_module('../../../prolog/typhon').
-:- use_module('../../../prolog/typhon/language', [payload_load/2]).
+:- use_module('../../../prolog/typhon/kernel/program',
+              [payload_load/2]).
 :- use_module('../../../agents/allocation/reservations').
 :- use_module('../../../agents/allocation/operator').
 :- include('../../../agents/allocation/allocator/mobility_resource').

@@ -14,7 +14,7 @@ hand, and programs drawn at random.
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/base/prng)).
-:- use_module(library(typhon/language), [payload_load/2]).
+:- use_module(library(typhon/kernel/program), [payload_load/2]).
 
 %   The clauses of the payload in a module of their own, as in an agent.
 

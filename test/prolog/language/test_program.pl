@@ -6,8 +6,8 @@
 :- use_module(library(filesex)).
 :- use_module(library(lists)).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/kernel/program), [program_hash/2]).
-:- use_module(library(typhon/language), [payload_load/2, program_load/6]).
+:- use_module(library(typhon/kernel/program),
+              [payload_load/2, program_hash/2, program_load/6]).
 
 /** <module> Tests of agent programs: loading, and errors
 

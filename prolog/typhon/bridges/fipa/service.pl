@@ -5,7 +5,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../../kernel/base/options', [check_name/2, check_options/2]).
-:- autoload('../../language', [payload_load/2]).
+:- use_module('../../kernel/program', [payload_load/2]).
 :- use_module('../../kernel/host', [host_option/2]).
 :- use_module('../common',
               [ client_becomes/1, http_server_close/1, http_server_open/4,

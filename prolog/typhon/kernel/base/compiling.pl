@@ -1,11 +1,13 @@
 :- module(typhon_compiling,
           [ compiling_begin/1,          % -Flags
             compiling_end/1,            % +Flags
-            compiling_load/1            % +Files
+            compiling/1                 % :Goal
           ]).
 :- ':'(system, set_module(':'(typhon_compiling, base(system)))).
 :- use_module(library(debug), []).      % from 9.2 on it defines a flag
 :- use_module(library(lists), [member/2]).
+
+:- meta_predicate compiling(0).
 
 /** <module> How the library is compiled
 
@@ -36,14 +38,14 @@ compiling_begin(Flags) :-
 compiling_end(Flags) :-
     forall(member(Name=Value, Flags), set_prolog_flag(Name, Value)).
 
-%!  compiling_load(+Files:list) is det.
+%!  compiling(:Goal) is semidet.
 %
-%   Load Files with these flags, and import nothing from them.
+%   Call once(Goal), which loads files, with these flags.
 
-compiling_load(Files) :-
+compiling(Goal) :-
     setup_call_cleanup(
         compiling_begin(Flags),
-        forall(member(File, Files), use_module(File, [])),
+        once(Goal),
         compiling_end(Flags)).
 
 flag(optimise, true).

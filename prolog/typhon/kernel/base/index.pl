@@ -52,6 +52,7 @@ joins(order,'options/identity',[attach]).
 joins(order,'options/trace',[watched]).
 joins(order,'tools/administration',[change,image]).
 joins(pheromone_option,'options/migration',[period,span,strength]).
+joins(program,language,[text]).
 joins(program,'language/chunks',[runs]).
 joins(program,'tools/checks',[read]).
 joins(question,'options/trace',[step]).
@@ -85,6 +86,7 @@ part_file(Part, File) :-
     member(File, Files).
 
 files('bridges/ros',['bridges/ros/events','bridges/ros/requests','bridges/ros/service']).
+files(language,['language/programs','language/source']).
 files('language/chunks',['language/chunks/chunk_compiler','language/chunks/chunk_faults']).
 files(network,['network/changes','network/children','network/dynamics','network/loading','network/log','network/networks','network/node_process','network/plan','network/topology','network/wiring']).
 files('options/access',['options/access']).

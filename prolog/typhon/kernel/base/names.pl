@@ -12,7 +12,7 @@
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [append/3, last/2, member/2]).
 :- use_module(text, [is_printable/1]).
-:- autoload(library(solution_sequences), [limit/2]).
+:- use_module(library(solution_sequences), [limit/2]).
 
 /** <module> Names, and those that users mistype
 

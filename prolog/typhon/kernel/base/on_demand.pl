@@ -5,8 +5,10 @@
             on_demand_call/3,           % +Seam, +What, +Goal
             on_demand_later/1           % :Goal
           ]).
-:- use_module(compiling, [compiling_load/1]).
+:- use_module(library(lists), [memberchk/2]).
+:- use_module(compiling, [compiling/1]).
 :- use_module(index, [part_file/2, part_joins/3, part_setting/6]).
+:- use_module(own_thread, [in_own_thread/1]).
 
 /** <module> Code that is loaded on first use
 
@@ -83,9 +85,34 @@ on_demand_call(Seam, What, Module:Goal) :-
     call(Module:Goal).
 
 load(Part) :-
-    findall(Path, ( part_file(Part, File), path(File, Path) ), Paths),
-    compiling_load(Paths),
+    forall(( part_file(Part, File), path(File, Path) ),
+           use_module(Path, [])),
     assertz(loaded(Part)).
+
+%   Whoever uses a part first may have little stack or a limit on inferences,
+%   and may be interrupted: a file of which Prolog has loaded a part is not
+%   loaded again.  So all files that are loaded later, also by autoload/2, are
+%   loaded in a thread of their own.
+
+:- multifile user:prolog_load_file/2.
+:- dynamic user:prolog_load_file/2.
+
+user:prolog_load_file(Module:File, Options) :-
+    \+ memberchk(typhon(later), Options),
+    typhon_on_demand:is_later(File),
+    in_own_thread(compiling(load_files(Module:File,
+                                       [typhon(later)|Options]))).
+
+:- public is_later/1.
+
+is_later(File) :-
+    atom(File),
+    directory(Directory),
+    atom_concat(Directory, _, File),
+    \+ source_location(_, _),           % as a part of another file
+    \+ source_file(File),
+    file_name_extension(File, pl, Path),
+    \+ source_file(Path).
 
 %   Settings of parts that are not loaded can be set.
 

@@ -43,8 +43,7 @@ other processes order.
                 host_unknown/1, process_ask/6 ]).
 :- use_module('../program',
               [ clause_parts/3, code_install/3, code_locate/2, code_program/2,
-                code_sent/2 ]).
-:- autoload('../../language', [payload_load/2, program_load/6]).
+                code_sent/2, payload_load/2, program_load/6 ]).
 :- use_module('../travel', [agent_born/2, clone_born/2]).
 :- use_module('../wire',
               [ endpoint_address/1, endpoint_later/1, endpoint_reply/2,

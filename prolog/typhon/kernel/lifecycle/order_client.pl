@@ -13,7 +13,7 @@
 :- use_module(library(option), [option/2]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../base/durable', [sync_after/1]).
-:- autoload('../../language', [payload_load/2]).
+:- use_module('../program', [payload_load/2]).
 :- use_module('../host',
               [address_parts/3, as_guest/1, context_now/2, host_address/2]).
 :- use_module('../travel', [agent_resumed_from/3, post/3, post_via/4]).

@@ -8,8 +8,8 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [must_be/2, permission_error/3]).
 :- use_module(library(option), [option/3]).
-:- use_module('../program', [path_below/1, vocabulary/1]).
-:- autoload('../../language', [payload_load/2, payload_python/3]).
+:- use_module('../program',
+              [payload_load/2, payload_python/3, path_below/1, vocabulary/1]).
 :- use_module('../host',
               [ context/3, context_agent/1, context_host/1, host/3,
                 parts_call/3, place_deliver/3, place_undeliver/2 ]).

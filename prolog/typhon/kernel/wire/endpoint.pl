@@ -59,7 +59,7 @@ under the mutex of the endpoint.
 :- autoload(library(socket),
             [ tcp_bind/2, tcp_close_socket/1, tcp_listen/2, tcp_open_socket/3,
               tcp_setopt/2, tcp_socket/1 ]).
-:- use_module('../base/compiling', [compiling_load/1]).
+:- use_module('../base/compiling', [compiling/1]).
 :- use_module('../base/durable',
               [ commits_must_succeed/0, durable_item/5, durable_opened/1,
                 durable_put/4, sync_changes/0 ]).
@@ -150,7 +150,7 @@ start(Options, Interface, Port, Address) :-
           ( transport_end, throw(Ball) )).
 
 start_at(At0, Port0, Address) :-
-    compiling_load([library(socket)]),
+    compiling(use_module(library(socket), [])),
     cookie(_),
     own_place(At0, Port0, at(Interface0, Advertised), Port1),
     until_opened,

@@ -27,9 +27,9 @@ put into them.
 :- autoload(library(terms), [mapsubterms/3]).
 :- autoload('../keys', [keys_sign/3, keys_verify/4]).
 :- use_module('../../kernel/base/private', [output_file/2]).
-:- use_module('../../kernel/program', [clause_parts/3, program_hash/2]).
-:- autoload('../../language',
-            [payload_file/1, payload_load/2, program_file/2, program_read/7]).
+:- use_module('../../kernel/program',
+              [ clause_parts/3, payload_file/1, payload_load/2,
+                program_file/2, program_hash/2, program_read/7 ]).
 
 :- multifile
     typhon_code:extra/2,

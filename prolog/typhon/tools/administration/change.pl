@@ -6,8 +6,7 @@
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module('../../kernel/program',
               [ clause_parts/3, code_install/3, code_program/2,
-                code_receive/2, code_sent/2, code_locate/2 ]).
-:- autoload('../../language', [program_load/6]).
+                code_receive/2, code_sent/2, code_locate/2, program_load/6 ]).
 :- use_module('../../kernel/wire', [mobile_term/1]).
 :- use_module('../../kernel/host', [host/3, parts/3]).
 :- use_module('../../kernel/agent',

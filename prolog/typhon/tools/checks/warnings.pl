@@ -7,7 +7,7 @@
 :- use_module(library(apply), [partition/4]).
 :- use_module(library(lists),
               [append/2, append/3, last/2, member/2, memberchk/2]).
-:- autoload(library(solution_sequences), [distinct/2]).
+:- use_module(library(solution_sequences), [distinct/2]).
 :- use_module('../../kernel/base/bounds', [bounded/3]).
 :- use_module('../../kernel/base/names', [names_near/3]).
 :- use_module('../../kernel/program',

@@ -110,6 +110,48 @@ test(many_threads_load_a_part_at_once, Out == "[true]") :-
                                        unwatch(W) ), T) ), Ts), \c
           findall(S, ( member(T, Ts), thread_join(T, S) ), Ss), \c
           sort(Ss, Set), print(Set)', Out).
+test(library_alone_neither_reads_nor_compiles_programs, Out == "[]") :-
+    seen('host_start(a), \c
+          findall(F, ( source_file(F), sub_atom(F, _, _, _, \c
+                       \'/typhon/language\') ), Fs), print(Fs)', Out).
+test(first_agents_of_many_threads, Out == "[0,1,2,3,4,5,6,7]") :-
+    seen('host_start(a), \c
+          numlist(0, 7, Ns), \c
+          findall(T, ( member(N, Ns), \c
+                       thread_create(( \c
+                           agent_create(clauses([ (:- agent(x, [])), \c
+                               (main :- sleep(0), result(N)) ]), A), \c
+                           agent_result(A, R, 30), \c
+                           thread_exit(R) ), T) ), Ts), \c
+          findall(R, ( member(T, Ts), thread_join(T, exited(R)) ), Rs), \c
+          print(Rs)', Out).
+test(first_agent_after_interrupted_ones, Out == "1") :-
+    seen('host_start(a), \c
+          P = clauses([(:- agent(x, [])), (main :- sleep(0), result(1))]), \c
+          forall(member(I, [1,10,30,100,200,400,800]), \c
+                 call_with_inference_limit(agent_create(P, _), I, _)), \c
+          agent_create(P, B), agent_result(B, R, 30), print(R)', Out).
+test(compiling_the_first_program_does_not_count_for_its_quota, Out == "1") :-
+    seen('host_start(a, [quota([inferences(2000)])]), \c
+          agent_create(clauses([ (:- agent(x, [])), \c
+                                 (main :- sleep(0), result(1)) ]), A), \c
+          agent_result(A, R, 30), print(R)', Out).
+
+%   Files of the library are loaded by many threads, and waits for a thread that
+%   loads one must not keep a mutex that this thread may want.
+
+test(nothing_is_loaded_while_a_mutex_is_held, [nondet, Held == []]) :-
+    project_file('test/lib/first_uses.pl', File),
+    project_file(prolog, Library),
+    atom_concat('library=', Library, Path),
+    run_swipl(['-p', Path, '-g', 'first_uses(Held),print(held(Held))',
+               '-t', halt, File],
+              [timeout(120)], Status, Out, _),
+    assertion(Status == exit(0)),
+    sub_string(Out, Before, _, _, "held("),
+    sub_string(Out, Before, _, 0, Text),
+    term_string(held(Held), Text).
+
 test(library_predicates_are_searched_for_again, Out == "true,false") :-
     seen('current_prolog_flag(autoload, A), \c
           current_prolog_flag(optimise, O), \c

@@ -11,7 +11,7 @@
 :- use_module(library(random), [random_between/3, random_member/2]).
 :- use_module(library(yall)).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/language), [program_read/7]).
+:- use_module(library(typhon/kernel/program), [program_read/7]).
 
 /** <module> A host loads no library for a program that it refuses
 
