@@ -2,31 +2,36 @@
 :- use_module('../../lib/common').
 :- use_module('../../lib/peers').
 :- use_module(library(apply), [exclude/3]).
-:- use_module(library(lists), [append/3, memberchk/2]).
+:- use_module(library(lists), [append/3, member/2, memberchk/2]).
 :- use_module(library(plunit)).
+:- use_module(library(typhon/language), []).
 
-/** <module> The life of an agent without options calls the kernel alone
+/** <module> The life of an agent without options needs no options
 
 An agent is created, gets a message, hops to another process and back, and
 ends.  Which modules of the kernel are called meanwhile varies: periodic work
-of the platform's threads adds some.  None may be of another layer.
+of the platform's threads adds some.  None may be of another layer, but those
+that read the program.
 
 *Threading*: the main thread; the hosts are in other processes.
 */
 
 :- begin_tests(crossed).
 
-test(life_without_options_calls_the_kernel_alone) :-
+test(life_without_options_calls_the_kernel_and_the_language_alone) :-
     with_peers([a, b], later_life(Modules)),
     assertion(memberchk(typhon_agents, Modules)),
-    exclude(of_kernel, Modules, Others),
+    exclude(of_layer, Modules, Others),
     assertion(Others == []).
 
 :- end_tests(crossed).
 
-of_kernel(Module) :-
+of_layer(Module) :-
     module_property(Module, file(File)),
-    sub_atom(File, _, _, _, '/prolog/typhon/kernel/').
+    member(Layer, [kernel, language]),
+    atomic_list_concat(['/prolog/typhon/', Layer, /], Path),
+    sub_atom(File, _, _, _, Path),
+    !.
 
 %   later_life(-Modules): the first life connects, and transfers the program.
 

@@ -54,6 +54,7 @@ other processes order.
     first_goal/3,                       % Options, Parent, Goal: the first goal
     typhon_options:declared/4,
     typhon_endpoint:requested/4,
+    typhon_programs:unknown/3,
     at_birth/2.                         % Goal, Id: carry out Goal, the first goal of
                                         % Id, which does not run it
 
