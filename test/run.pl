@@ -56,7 +56,7 @@ suite_deadline(Seconds) :-
     atom_number(Atom, Seconds),
     !.
 suite_deadline(Seconds) :-
-    patience(600, Seconds).
+    patience(200, Seconds).
 
 %   Long suites begin early, so that all end at about the same time.
 

@@ -200,17 +200,20 @@ wait_with(Slowness, Longer) :-
 test(waits_in_suites_become_longer, Lines == Longer) :-
     with_tmp_dir(expanded('3', Lines)),
     Longer = [ "agent_result(a,b,30.0)", "agent_result(a,b,1)",
-               "thread_get_message(q,m,[timeout(60.0)])" ].
+               "thread_get_message(q,m,[timeout(60.0)])",
+               "peer_do(a,\\+agent_join(a,b,30.0))" ].
 
 test(waits_in_suites_are_as_written, Lines == AsWritten) :-
     with_tmp_dir(expanded('1.0', Lines)),
     AsWritten = [ "agent_result(a,b,10)", "agent_result(a,b,1)",
-                  "thread_get_message(q,m,[timeout(20)])" ].
+                  "thread_get_message(q,m,[timeout(20)])",
+                  "peer_do(a,\\+agent_join(a,b,10))" ].
 
 expanded(Slowness, Lines, Dir) :-
     Clauses = "p(1) :- agent_result(a, b, 10).\n\c
                p(2) :- agent_result(a, b, 1).\n\c
-               p(3) :- thread_get_message(q, m, [timeout(20)]).\n",
+               p(3) :- thread_get_message(q, m, [timeout(20)]).\n\c
+               p(4) :- peer_do(a, \\+ agent_join(a, b, 10)).\n",
     project_file('test/lib/common.pl', Common),
     format(string(Program), ":- use_module('~w').\n~s", [Common, Clauses]),
     write_in(Dir, 'test/x.pl', Program),
