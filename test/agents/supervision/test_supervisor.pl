@@ -7,7 +7,6 @@
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [append/2, member/2, nth1/3]).
 :- use_module(library(pairs), [map_list_to_pairs/3]).
-:- use_module(library(prolog_wrap), [unwrap_predicate/2, wrap_predicate/4]).
 :- use_module(library(typhon)).
 
 /** <module> Supervisors
@@ -46,6 +45,11 @@ with_children(Children, More, S, Ids, Goal) :-
 
 quietly(Hosts, Goal) :-
     with_hosts(Hosts, capturing(Goal, _)).
+
+:- dynamic ended/1.                     % Id, in the order of the ends
+
+note(event(_, _, Id, What)) :-
+    ( What = ended(_) -> assertz(ended(Id)) ; true ).
 
 :- begin_tests(supervisor).
 
@@ -130,17 +134,15 @@ test(restart_is_retried_when_capacity_is_free) :-
 
 %   Ids are numbered as agents are created.
 
-:- dynamic ended/1.                     % Id, in the order of the ends
-
 test(children_start_in_order_and_end_in_reverse,
      [ Started-Ended == [a,b,c]-[c,b,a] ]) :-
     with_children([a-[], b-[], c-[]], [], S, Ids,
         ( retractall(test_supervisor:ended(_)),
           setup_call_cleanup(
-              wrap_predicate(typhon_whereabouts:home_ended(Id, _, _, _), noted, W,
-                             ( assertz(test_supervisor:ended(Id)), W )),
+              watch(alpha, test_supervisor:note, Watch),
               ( agent_send(S, stop), joined(S, done) ),
-              unwrap_predicate(typhon_whereabouts:home_ended/4, noted)) )),
+              with_settings([typhon_watches:last_seconds=20],
+                            unwatch(Watch))) )),
     map_list_to_pairs(number_of, Ids, Numbered0),
     keysort(Numbered0, Numbered),
     findall(Name, ( member(_-Id1, Numbered), named(Id1, Name) ), Started),

@@ -524,10 +524,12 @@ not_complete(Formal, Old, New, File) :-
     saved_small(File, _, _),
     read_file_to_string(File, Old, []),
     setup_call_cleanup(
-        wrap_predicate(typhon_saving:sum(_, _), test_saving, _,
-                       throw(error(resource_error(disk), _))),
+        wrap_predicate(typhon_text:term_text(Term, _), test_saving, Write,
+                       ( Term = end(_)
+                       -> throw(error(resource_error(disk), _))
+                       ;  Write )),
         catch(saved_small(File, _, _), error(Formal, _), true),
-        unwrap_predicate(typhon_saving:sum/2, test_saving)),
+        unwrap_predicate(typhon_text:term_text/2, test_saving)),
     file_directory_name(File, Dir),
     directory_files(Dir, Files),
     msort(Files, ['.', '..', file]),

@@ -16,7 +16,8 @@
 table(Setting, Module, Goal, I) :-
     member(t(Setting, Module, Goal),
            [ t(typhon_whereabouts:outcomes, typhon_whereabouts,
-               typhon_whereabouts:home_ended(Id, done, 1, [])),
+               typhon_endpoint:received(whereabouts, [ended(Id, done, 1)],
+                                        '127.0.0.1:1')),
              t(typhon_outcomes:results, typhon_outcomes,
                typhon_outcomes:results_keep(Id, [result(I)])),
              t(typhon_outcomes:clones, typhon_outcomes,

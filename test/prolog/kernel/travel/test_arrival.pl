@@ -69,12 +69,13 @@ test(hop_before_the_last_known_one_is_recognised_at_home, Load == 0) :-
                  address(alpha, Home),
                  atom_concat('x.1.home@', Home, Id),
                  typhon_whereabouts:agent_born(Id, Home),
-                 typhon_whereabouts:home_moved(Id, 'far@127.0.0.1:1', 3, unknown),
+                 typhon_whereabouts:agent_left(Id, 'far@127.0.0.1:1', 3,
+                                               '127.0.0.1:1'),
                  image([], Image0),
                  bad_image(id(Id), Image0, Image),
                  handed(Image),
                  host_property(alpha, load(Load)),
-                 typhon_whereabouts:home_ended(Id, disposed, 3, []) )).
+                 typhon_whereabouts:agent_ended(Id, disposed, 3, []) )).
 test(hop_of_a_number_that_came_before_has_no_effect,
      [First, Second] == [accepted, accepted]) :-
     with_hosts([alpha],
