@@ -20,6 +20,7 @@ are one scenario: they wait together, and the clock is set once.
 :- use_module(library(typhon)).
 :- use_module(library(typhon/python)).
 :- use_module(library(typhon/kernel), [agents_run/1]).
+:- use_module(library(typhon/kernel/base/monotonic), [wait_within/2]).
 
 set_clock_main :-
     current_prolog_flag(argv, [Text|Names]),
@@ -102,8 +103,8 @@ scenario(network, Step, Outcome-Word) :-
                                Agent, [host(Host)]),
                   agent_join(Agent, Outcome, 100) ),
           Word0),
-    lasts(0, ( network_stop(Network), sleep(1) ), Word1),
-    ( Word0 == Word1 -> Word = Word0 ; Word = Word0/Word1 ).
+    seconds_of(network_stop(Network), Seconds),
+    ( Seconds < 25 -> Word = Word0 ; Word = late(Seconds) ).
 scenario(chaos, Most, Outcomes) :-
     network_start(ring(4), Network, [processes(2)]),
     network_property(Network, hosts(Hosts)),
@@ -159,12 +160,11 @@ waited(Wait, Outcome-Word) :-
 
 set_randomly(Most) :-
     thread_self(Me),
-    (   thread_peek_message(Me, stop)
+    (   wait_within(0.1, thread_get_message(Me, stop))
     ->  true
     ;   random_member(Part, [-1, -0.01, 0, 0.01, 1]),
         Seconds is Part*Most,
         clock_set(Seconds),
-        sleep(0.1),
         set_randomly(Most)
     ).
 

@@ -21,10 +21,10 @@ study_here.
 work(fail) :- !, throw(error(existence_error(luck, here), _)).
 work(ball) :- !, throw(ball).
 work(kill) :- !, current_prolog_flag(pid, Pid),
-    format(atom(Kill), "kill -9 ~d", [Pid]), shell(Kill), sleep(60).
+    format(atom(Kill), "kill -9 ~d", [Pid]), shell(Kill), work(wait).
 work(halt) :- !, halt(7).
-work(wait) :- !, sleep(100).
-work(stuck) :- !, on_signal(term, _, ignore), sleep(100).
+work(wait) :- !, thread_get_message(never).
+work(stuck) :- !, on_signal(term, _, ignore), work(wait).
 work(until) :- !, beside(go, Go), until(Go).
 work(_).
 until(File) :- exists_file(File), !.

@@ -229,11 +229,6 @@ test(busy_worker_of_a_pool_is_not_doubled, Before == After) :-
     remote(A, ( take(worker(crew, Worker)), host_load(Before) )),
     sequence_start(second, [A], [1-true], [agents(0), pool(crew)], []),
     remote(A, ( host_load(After), leave(worker(crew, Worker)) )).
-test(task_of_a_range_of_times) :-
-    Goal = ( random_between(100, 400, Ms), S is Ms/1000, sleep(S) ),
-    start(ranges, [1-Goal, 2-Goal], Agents),
-    all_end(Agents),
-    all_executed(ranges, [1, 2]).
 test(atomic_failures_from_another_process_are_healed) :-
     start_with_gate(atomic, [1, 2, gate], Agents),
     hosts(Hosts),

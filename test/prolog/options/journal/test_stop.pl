@@ -3,7 +3,7 @@
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(prolog_wrap), [unwrap_predicate/2, wrap_predicate/4]).
-:- use_module(library(random), [random/3]).
+:- use_module(library(random), [random/3, random_between/3]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/base/durable),
               [durable/5, durable_assertz/1]).
@@ -183,9 +183,8 @@ sent_again(Dir) :-
     forget.
 
 rested(Round, Options) :-
-    wait_until(( result(a, N, ok), N >= 3*Round ), 60),
-    random(0.0, 0.05, Pause),
-    sleep(Pause),
+    random_between(0, 3, More),
+    wait_until(( result(a, N, ok), N >= 3*Round+More ), 60),
     host_stop(alpha),
     host_start(alpha, Options).
 

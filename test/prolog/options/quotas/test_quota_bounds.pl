@@ -357,12 +357,15 @@ pauses(Seconds, Acts) :-
             Acts0),
     sort(Acts0, Acts).
 
-%   The thread waits, so that its stack does not change.
+%   The thread waits, so that its stack does not change any more.
 
 still(Thread, Used) :-
     thread_statistics(Thread, stack, Used),
-    sleep(0.01),
-    thread_statistics(Thread, stack, Used).
+    (   nb_current(test_quota_bounds, Used)
+    ->  true
+    ;   nb_setval(test_quota_bounds, Used),
+        fail
+    ).
 
                 /*******************************
                 *           IN FORCE           *
