@@ -19,7 +19,7 @@
                 image_filled/2, image_label/2, image_life/2, image_module/3,
                 life_hops/2, with_agent/2 ]).
 :- use_module(hop, [taken_over/4]).
-:- use_module(whereabouts, [agent_comes_anew/3, agent_seen/4]).
+:- use_module(whereabouts, [agent_arrived/4, hop_is_new/3]).
 :- use_module(mail, [post_waiting/2]).
 :- use_module(transfer, [transfer_let_go/4, transfer_over/2]).
 
@@ -176,7 +176,7 @@ repeated(Id, Hops) :-
     (   agent(Id, _, _, _, Life)
     ->  life_hops(Life, Hops0),
         Hops0 >= Hops
-    ;   \+ agent_comes_anew(Id, Hops, _)
+    ;   \+ hop_is_new(Id, Hops, _)
     ).
 
 %   install(+Name, +Label, +Image, +From, -In, -Verdict): all or nothing; In is
@@ -225,7 +225,7 @@ overtaken(Id, Hops) :-
         ;   agent_status(Id, Status, _),
             Status \= transit(_, _)
         )
-    ;   \+ agent_comes_anew(Id, Hops, _)
+    ;   \+ hop_is_new(Id, Hops, _)
     ).
 
 add_orders([], _).
@@ -249,7 +249,7 @@ remove_old_copy(Id, Mail, Orders, Gone) :-
 report_arrival(Name, Address, label(Id, Hops, Since, From), Peer) :-
     debug(typhon(hop), '~w hop ~D: is on ~w, from ~w',
           [Id, Hops, Address, Peer]),
-    agent_seen(Id, Address, Hops, Peer),
+    agent_arrived(Id, Address, Hops, Peer),
     (   host_time(Name, Now)
     ->  Seconds is max(0.0, Now-Since),
         host_hop(Name, in, Seconds),

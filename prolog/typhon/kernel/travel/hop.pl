@@ -84,8 +84,8 @@ agent; answers and taken_over/4 in the threads of the endpoint, which never wait
                 transfer_image/2, transfer_image/5, transfer_stays/2,
                 transfer_traveller/3, transfer_unreachable/1 ]).
 :- use_module(whereabouts,
-              [ agent_born/2, agent_came/4, agent_comes_anew/3, agent_seen/4,
-                agent_went/4 ]).
+              [ agent_arrived/4, agent_born/2, agent_departed/4, hop_is_new/3,
+                visitor_arrived/4 ]).
 
 :- multifile
     sent_again/2,                       % Endpoint, Id: the image is sent again, because
@@ -335,7 +335,7 @@ typhon_endpoint:handed_over(Transfer, Result) :-
     settled(Result, Transfer).
 
 settled(accepted, hop(Id, Dest, Hops)) :-
-    with_agent(Id, moved_on(Id, Dest, Hops, Host, Since)),
+    with_agent(Id, departed(Id, Dest, Hops, Host, Since)),
     !,
     host_left(Host, Since).
 settled(Result, Transfer) :-
@@ -346,10 +346,10 @@ settled(Result, Transfer) :-
 %   The destination is noted before the agent is removed, and mail that came
 %   meanwhile is sent before any that comes later.
 
-moved_on(Id, dest(Address, _, _), Hops, Host, Since) :-
+departed(Id, dest(Address, _, _), Hops, Host, Since) :-
     agent_under_way(Id, Hops, Host, _, way(_, Since), Frame),
     endpoint_hand_to(Frame, Process),
-    agent_went(Id, Address, Hops, Process),
+    agent_departed(Id, Address, Hops, Process),
     agent_gone(Id, Hops, Mail),
     post_on(Id, Mail).
 
@@ -401,7 +401,7 @@ taken_over(Host, Image, known, Peer) :-
           [Id, Hops, Address, Peer]),
     (   Home == here
     ->  true                            % this process is its home
-    ;   agent_came(Id, Address, Hops, Peer)
+    ;   visitor_arrived(Id, Address, Hops, Peer)
     ),
     endpoint_afterwards(go_on(Id, Host-Hash, context(Program, Id), Goals)).
 
@@ -411,7 +411,7 @@ install(Id, Hops, Where, Hash-Program, Life, Clauses, Since, Home) :-
     Where = Host-Plain,
     \+ agent_on(Id, _),
     \+ backlog(Id),
-    agent_comes_anew(Id, Hops, Home),
+    hop_is_new(Id, Hops, Home),
     arg(2, Plain, Place),
     agent_module(Id, Place, Program, Clauses),
     (   host_came(Where, Since)
@@ -576,7 +576,7 @@ arrival_finish_safely(Id, Hosts, Address, Hops, Seconds, Next) :-
 arrival_finish(Id, Here-Name, Address, Hops, Seconds, Next) :-
     debug(typhon(hop), '~w hop ~D: is on ~w, of this process',
           [Id, Hops, Address]),
-    agent_seen(Id, Address, Hops, here),
+    agent_arrived(Id, Address, Hops, here),
     ignore(move_over(Id, answer(arrived))),
     (   event_subscribed(hops),
         host(Here, From, _)

@@ -25,10 +25,10 @@
 
 /** <module> Agents under way
 
-A transfer is hop(Id, Dest, Hops), with the id of the agent and the number of
-the hop, or clone(Id, Dest, CloneId).  Dest is dest(Address, Name, Endpoint).
-During the transfer the agent is frozen in this process; the transfer ends when
-the agent has arrived, or stays.
+A transfer is hop(Id, Dest, Hops), with the id of the agent and the number
+of the hop, or clone(Id, Dest, CloneId).  Dest is
+dest(Address, Name, Endpoint). During the transfer the agent is frozen in this
+process; the transfer ends when the agent has arrived, or stays.
 
 The held goals are Hole-Goals, for a clone Hole-Goals-Role.  While the agent is
 frozen its goals are hop(Held, Hops, Mail, Since) or
@@ -72,8 +72,8 @@ resolve_in_doubt/1 in reader threads, which never wait; ask_peers/2 in a worker.
 :- use_module(mail, [post_on/2]).
 :- use_module(outcomes, [clone_unborn/2]).
 :- use_module(whereabouts,
-              [ agent_comes_anew/3, agent_ended/4, agent_left/4,
-                agent_left_noted/4, agent_location/4 ]).
+              [ agent_departed_to/4, agent_ended/4, agent_location/4,
+                departure_noted/4, hop_is_new/3 ]).
 
 :- setting(typhon_in_doubt:shown_seconds, number, 3,
            "Seconds under way after which an agent is shown as in doubt").
@@ -113,7 +113,8 @@ transfer_traveller(clone(_, _, CloneId), CloneId, 1).
 transfer_image(hop(Id, _, Hops), Hole-Goals, Mail, Since, Image) :-
     ignore(Hole = true),                % Hole is bound if the move was an order
     image_hop(Id, Hops, Goals, Mail, Since, Image).
-transfer_image(clone(Id, _, CloneId), Hole-Goals-Role, _, Since, Image) :-
+transfer_image(clone(Id, _, CloneId), Hole-Goals-Role, _, Since,
+               Image) :-
     Hole = (Role=clone(Id)),
     image_clone(Id, CloneId, Goals, Since, Image).
 
@@ -145,7 +146,8 @@ transfer_freeze(hop(Id, dest(Address, _, Endpoint), Hops), Held, Mail,
     mail_all(Id, Mail),
     agent_put(Id, transit(Address, Sent), hop(Held, Hops, Mail, Since)),
     debug(typhon(hop), '~w hop ~D: leaves for ~w', [Id, Hops, Address]).
-transfer_freeze(clone(Id, dest(Address, _, Endpoint), CloneId), Held, [],
+transfer_freeze(clone(Id, dest(Address, _, Endpoint), CloneId), Held,
+                [],
                 Since) :-
     departs(CloneId, 1, Endpoint, Sent),
     agent_put(Id, cloning(Address, Sent), clone(Held, CloneId, Since)),
@@ -201,35 +203,35 @@ transfer_arrived(Transfer) :-
     ).
 
 arrived(hop(Id, dest(Address, _, Endpoint), Hops)) :-
-    (   with_agent(Id, moved_on(Id, Hops, Address, Endpoint, Orders, Gone))
+    (   with_agent(Id, departed(Id, Hops, Address, Endpoint, Orders, Gone))
     ->  debug(typhon(hop), '~w hop ~D: has gone', [Id, Hops]),
         call(Gone),
         forall(member(Order, Orders), follow(Id, Order))
     ;   retract(given_up(Id, Hops))
     ->  durable_drop(given_up, Id, Hops),
         transfer_over(Id, Hops),
-        agent_left(Id, Address, Hops, Endpoint),
-        agent_left_noted(Id, Address, Hops, Endpoint),
+        agent_departed_to(Id, Address, Hops, Endpoint),
+        departure_noted(Id, Address, Hops, Endpoint),
         follow(Id, dispose)
     ;   true                            % it came back before the answer
     ).
 arrived(clone(Id, dest(Address, _, Endpoint), CloneId)) :-
     debug(typhon(hop), '~w hop 1: has gone', [CloneId]),
     transfer_over(CloneId, 1),
-    agent_left(CloneId, Address, 1, Endpoint),
-    agent_left_noted(CloneId, Address, 1, Endpoint),
+    agent_departed_to(CloneId, Address, 1, Endpoint),
+    departure_noted(CloneId, Address, 1, Endpoint),
     ignore(with_agent(Id, clone_back(Id, CloneId, parent(CloneId)))).
 
 %   The destination is noted before the agent is removed, and mail that came
 %   meanwhile is sent before any that comes later.
 
-moved_on(Id, Hops, Address, Endpoint, Orders, Gone) :-
+departed(Id, Hops, Address, Endpoint, Orders, Gone) :-
     agent_status(Id, transit(_, _), hop(_, Hops, _, Since)),
-    agent_left(Id, Address, Hops, Endpoint),
+    agent_departed_to(Id, Address, Hops, Endpoint),
     let_go(Id, Since, Mail, Orders, Gone),
     transfer_over(Id, Hops),
     (   durable_on
-    ->  agent_left_noted(Id, Address, Hops, Endpoint),
+    ->  departure_noted(Id, Address, Hops, Endpoint),
         post_on(Id, Mail),
         enqueue_changes
     ;   post_on(Id, Mail)
@@ -244,13 +246,14 @@ transfer_let_go(Id, Mail, Orders, Gone) :-
     agent_status(Id, transit(_, _), hop(_, _, _, Since)),
     let_go(Id, Since, Mail, Orders, Gone).
 
-let_go(Id, Since, Mail, Orders, typhon_transfer:gone(Id, Host, Since)) :-
+let_go(Id, Since, Mail, Orders,
+       typhon_transfer:count_departure(Id, Host, Since)) :-
     agent(Id, Host, _, _, _),
     events_forget(Id),
     mail_all(Id, Mail),
     agent_remove(Id, Orders).
 
-gone(Id, Host, Since) :-
+count_departure(Id, Host, Since) :-
     ignore(move_over(Id, answer(arrived))),
     host_leave(Host),
     (   host_time(Host, Now)
@@ -536,7 +539,7 @@ typhon_endpoint:requested(whereabouts, reached(Id, Hops), _, ReplyTo) :-
 reached(Id, Hops, true) :-
     (   hops_here(Id, Hops0),
         Hops0 >= Hops
-    ;   \+ agent_comes_anew(Id, Hops, _)
+    ;   \+ hop_is_new(Id, Hops, _)
     ),
     !.
 reached(Id, _, false) :-

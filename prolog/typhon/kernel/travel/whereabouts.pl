@@ -5,11 +5,11 @@
             home_agents_at/2,           % +Endpoint, -Ids
             agent_outcome/2,            % +Id, -Outcome
             outcome_wait/3,             % +Id, +Seconds, +Asker
-            agent_seen/4,               % +Id, +Address, +Hops, +Peer
-            agent_came/4,               % +Id, +Address, +Hops, +Peer
-            agent_left/4,               % +Id, +Address, +Hops, +Peer
-            agent_went/4,               % +Id, +Address, +Hops, +Process
-            agent_left_noted/4,         % +Id, +Address, +Hops, +Peer
+            agent_arrived/4,            % +Id, +Address, +Hops, +Peer
+            visitor_arrived/4,          % +Id, +Address, +Hops, +Peer
+            agent_departed_to/4,        % +Id, +Address, +Hops, +Peer
+            agent_departed/4,           % +Id, +Address, +Hops, +Process
+            departure_noted/4,          % +Id, +Address, +Hops, +Peer
             agent_ends/2,               % +Id, +Hops
             ended_agent/1,              % ?Id
             agent_ended/4,              % +Id, +Outcome, +Hops, +Results
@@ -18,7 +18,7 @@
             agent_resumed/3,            % +Id, +Stamp, +Hops
             agent_resumed_from/3,       % +Id, +Stamp, +Hops
             agent_location/4,           % +Id, -Address, -Hops, -Process
-            agent_comes_anew/3,         % +Id, +Hops, -Home
+            hop_is_new/3,               % +Id, +Hops, -Home
             whereabouts/2               % +Id, -Address
           ]).
 
@@ -39,7 +39,8 @@ doubt may ask whether its agent arrived.
 An agent is in a process, not at an address: if another process has the address
 now, the agent has ended with the process that had it before, or has moved on.
 
-*Threading*: any thread; one mutex for all changes of locations.  A courier sends news to the home, since that may have to connect.
+*Threading*: any thread; one mutex for all changes of locations.  A courier
+sends news to the home, since that may have to connect.
 */
 
 :- use_module(library(apply), [include/3, maplist/2]).
@@ -382,22 +383,22 @@ typhon_endpoint:requested(join, join(Id, Seconds), _Peer, ReplyTo) :-
                 *        ON OTHER HOSTS        *
                 *******************************/
 
-%!  agent_seen(+Id, +Address, +Hops, +Peer) is det.
+%!  agent_arrived(+Id, +Address, +Hops, +Peer) is det.
 %
 %   Record that Id has arrived at Address, a host of this process, from Peer,
 %   and report that to its home.  Peer is `here` if Id came from this process.
 
-agent_seen(Id, _, _, _) :-
+agent_arrived(Id, _, _, _) :-
     home_knows(Id, _, _, _),            % this process is its home
     !.
-agent_seen(Id, Address, Hops, Peer) :-
-    agent_came(Id, Address, Hops, Peer).
+agent_arrived(Id, Address, Hops, Peer) :-
+    visitor_arrived(Id, Address, Hops, Peer).
 
-%!  agent_came(+Id, +Address, +Hops, +Peer) is det.
+%!  visitor_arrived(+Id, +Address, +Hops, +Peer) is det.
 %
-%   As agent_seen/4, for agents that were not born in this process.
+%   As agent_arrived/4, for agents that were not born in this process.
 
-agent_came(Id, Address, Hops, Peer) :-
+visitor_arrived(Id, Address, Hops, Peer) :-
     agent_home_endpoint(Id, Home),
     (   endpoint_address(Home)
     ->  true
@@ -408,23 +409,23 @@ agent_came(Id, Address, Hops, Peer) :-
         )
     ).
 
-%!  agent_left(+Id, +Address, +Hops, +Peer) is det.
+%!  agent_departed_to(+Id, +Address, +Hops, +Peer) is det.
 %
 %   Record that Id has left this process for Address, a host at the endpoint
 %   Peer.
 
-agent_left(Id, Address, Hops, Peer) :-
+agent_departed_to(Id, Address, Hops, Peer) :-
     (   endpoint_address(Peer)
     ->  true
     ;   process_at(Peer, Process),
-        agent_went(Id, Address, Hops, Process)
+        agent_departed(Id, Address, Hops, Process)
     ).
 
-%!  agent_went(+Id, +Address, +Hops, +Process) is det.
+%!  agent_departed(+Id, +Address, +Hops, +Process) is det.
 %
-%   As agent_left/4; Process is the process of Address, another one.
+%   As agent_departed_to/4; Process is the process of Address, another one.
 
-agent_went(Id, Address, Hops, Process) :-
+agent_departed(Id, Address, Hops, Process) :-
     with_mutex(typhon_born, located(Id, Address, Hops, Process, leaving)).
 
 process_at(Endpoint, Process) :-
@@ -433,11 +434,11 @@ process_at(Endpoint, Process) :-
     ;   Process = unknown
     ).
 
-%!  agent_left_noted(+Id, +Address, +Hops, +Peer) is det.
+%!  departure_noted(+Id, +Address, +Hops, +Peer) is det.
 %
 %   Note in the journal that Id has left, in place of its record.
 
-agent_left_noted(Id, Address, Hops, Peer) :-
+departure_noted(Id, Address, Hops, Peer) :-
     (   durable_on,
         \+ endpoint_address(Peer)
     ->  process_at(Peer, Process),
@@ -453,7 +454,7 @@ agent_left_noted(Id, Address, Hops, Peer) :-
 
 :- durable(agent, Id, 0, gone(Address, Hops, Process),
            forward(Id, Address, Hops, Process),
-           agent_went(Id, Address, Hops, Process)).
+           agent_departed(Id, Address, Hops, Process)).
 
 %!  agent_ends(+Id, +Hops) is det.
 %
@@ -569,7 +570,7 @@ agent_location(Id, Address, Hops, Process) :-
 agent_location(Id, Address, Hops, Process) :-
     home_knows(Id, Address, Hops, Process).
 
-%!  agent_comes_anew(+Id, +Hops, -Home) is semidet.
+%!  hop_is_new(+Id, +Hops, -Home) is semidet.
 %
 %   As far as this process knows, Id, which is not in it, has not made Hops hops
 %   before, and has not ended.  Home is `here` if Id was born in this process,
@@ -577,7 +578,7 @@ agent_location(Id, Address, Hops, Process) :-
 %   ends meanwhile is noted in the later ones before it is removed from the
 %   first.
 
-agent_comes_anew(Id, Hops, Home) :-
+hop_is_new(Id, Hops, Home) :-
     \+ ( made_hops(Id, Made), Made >= Hops ),
     \+ outcome(Id, _, _),
     ( born(Id, _, _, _) -> Home = here ; Home = elsewhere ).

@@ -25,7 +25,7 @@ table(Setting, Module, Goal, I) :-
              t(typhon_whereabouts:endings, typhon_whereabouts,
                typhon_whereabouts:agent_ends(Id, 1)),
              t(typhon_whereabouts:forwards, typhon_whereabouts,
-               typhon_whereabouts:agent_went(Id, address, 2, here)),
+               typhon_whereabouts:agent_departed(Id, address, 2, here)),
              t(typhon_questions:met, typhon_questions,
                typhon_questions:agent_met(Id)) ]),
     freeze(I, format(atom(Id), 'x.~d@far@127.0.0.1:1', [I])).

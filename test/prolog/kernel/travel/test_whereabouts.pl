@@ -39,11 +39,11 @@ reported(Home, Id, Hops) :-
     (   Home == here,
         maybe
     ->  typhon_whereabouts:home_moved(Id, Address, Hops, unknown)
-    ;   typhon_whereabouts:agent_went(Id, Address, Hops, unknown)
+    ;   typhon_whereabouts:agent_departed(Id, Address, Hops, unknown)
     ).
 
 test(home_that_was_restarted_learns_where_its_agents_are,
-     [ forall(member(By, [home_moved, agent_went])), Address == '2@y:1' ]) :-
+     [ forall(member(By, [home_moved, agent_departed])), Address == '2@y:1' ]) :-
     with_hosts([alpha],
                ( agent_of(here, Id),
                  call(typhon_whereabouts:By, Id, '2@y:1', 2, unknown),
@@ -58,9 +58,9 @@ test(departure_before_the_end_is_no_location) :-
     with_hosts([alpha],
                ( agent_of(here, Id),
                  typhon_whereabouts:home_ended(Id, done, 3, []),
-                 typhon_whereabouts:agent_went(Id, '3@y:1', 3, unknown),
+                 typhon_whereabouts:agent_departed(Id, '3@y:1', 3, unknown),
                  \+ typhon_whereabouts:agent_location(Id, _, _, _),
-                 typhon_whereabouts:agent_went(Id, '4@y:1', 4, unknown),
+                 typhon_whereabouts:agent_departed(Id, '4@y:1', 4, unknown),
                  typhon_whereabouts:whereabouts(Id, '4@y:1'),
                  typhon_identity:id_anew(Id) )).
 test(agent_that_came_home_and_ended_does_not_come_again) :-
@@ -68,14 +68,14 @@ test(agent_that_came_home_and_ended_does_not_come_again) :-
                ( agent_of(here, Id),
                  typhon_whereabouts:agent_born(Id, '1@y:1'),
                  typhon_whereabouts:agent_ends(Id, 2),
-                 \+ typhon_whereabouts:agent_comes_anew(Id, 2, _),
-                 typhon_whereabouts:agent_comes_anew(Id, 3, here),
+                 \+ typhon_whereabouts:hop_is_new(Id, 2, _),
+                 typhon_whereabouts:hop_is_new(Id, 3, here),
                  typhon_identity:id_anew(Id) )).
 test(agent_is_known_while_its_end_is_recorded, Anew == none) :-
     with_hosts([alpha],
                ( agent_of(here, Id),
                  typhon_whereabouts:agent_born(Id, '1@y:1'),
-                 typhon_whereabouts:agent_went(Id, '2@y:1', 1, unknown),
+                 typhon_whereabouts:agent_departed(Id, '2@y:1', 1, unknown),
                  nb_setval(anew, unseen),
                  setup_call_cleanup(
                      wrap_predicate(typhon_outcomes:results_keep(Ended, _), noted,
@@ -98,7 +98,7 @@ agent_of_home(Address, Id) :-
 :- end_tests(whereabouts).
 
 note_anew(Id) :-
-    (   typhon_whereabouts:agent_comes_anew(Id, 1, _)
+    (   typhon_whereabouts:hop_is_new(Id, 1, _)
     ->  nb_setval(anew, Id)
     ;   nb_setval(anew, none)
     ).

@@ -275,7 +275,7 @@ test(queued_messages_are_split_over_frames) :-
           text(30000, Text),
           numlist(1, 7, Numbers),
           small(( forall(member(N, Numbers), agent_send(Id, N-Text)),
-                  typhon_whereabouts:agent_seen(Id, Beta, 2, unknown),
+                  typhon_whereabouts:agent_arrived(Id, Beta, 2, unknown),
                   findall(N-Text, member(N, Numbers), All),
                   got(Id, All) )) )).
 
