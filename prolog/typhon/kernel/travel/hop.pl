@@ -115,7 +115,7 @@ hop(Id, local(Name), Hole, Goals, Since, Next) :-
 hop(Id, Where, Hole, Goals0, Since, stop) :-
     plain_goals(Goals0, Goals),
     destination(Where, Dest),
-    Transfer = hop(Id, Dest, _),
+    Transfer = transfer(Id, Dest, _),
     image(Transfer, Hole-Goals, Mail, Since, Image),
     set_out(Transfer, Hole-Goals, Mail, Since, Image).
 
@@ -129,7 +129,7 @@ hop_clone(Id, Where, CloneId, Role, Hole, Goals0) :-
     agent(Id, Host, _, _, _),
     host_time(Host, Since),
     destination(Where, Dest),
-    Transfer = clone(Id, Dest, CloneId),
+    Transfer = clone_transfer(Id, Dest, CloneId),
     image(Transfer, Hole-Goals-Role, Mail, Since, Image),
     host(Host, Here, _),
     agent_born(CloneId, Here),
@@ -294,7 +294,7 @@ hand_over(Id, Host, remote(Address, Name, Endpoint), Hole, Goals) :-
     plain_goals(Goals, Plain),
     image_handed(Id-Hash, Life, State, Hole-Plain, Mail, Since, Image),
     (   framed(Endpoint, Name, Hash, Image, Frame),
-        Transfer = hop(Id, dest(Address, Name, Endpoint), Hops),
+        Transfer = transfer(Id, dest(Address, Name, Endpoint), Hops),
         sig_atomic(with_agent(Id, leave(Transfer, Since, Frame)))
     ->  debug(typhon(hop), '~w hop ~D: leaves for ~w', [Id, Hops, Address])
     ;   with_agent(Id, mail_returned(Id, Mail)),
@@ -322,7 +322,7 @@ framed(Endpoint, Name, Hash, Image, Frame) :-
 %   Sends the frame last: the agent may be back before another goal runs here.
 
 leave(Transfer, Since, Frame) :-
-    Transfer = hop(Id, Dest, Hops),
+    Transfer = transfer(Id, Dest, Hops),
     agent_handed(Id, Hops, way(Dest, Since), Frame),
     catch(endpoint_hand_over(Frame, Transfer), error(session_closed, _),
           scheduler_call(typhon_hop:settled(unsent, Transfer))).
@@ -334,12 +334,12 @@ leave(Transfer, Since, Frame) :-
 typhon_endpoint:handed_over(Transfer, Result) :-
     settled(Result, Transfer).
 
-settled(accepted, hop(Id, Dest, Hops)) :-
+settled(accepted, transfer(Id, Dest, Hops)) :-
     with_agent(Id, departed(Id, Dest, Hops, Host, Since)),
     !,
     host_left(Host, Since).
 settled(Result, Transfer) :-
-    ignore(( Transfer = hop(Id, _, _),
+    ignore(( Transfer = transfer(Id, _, _),
              with_agent(Id, thawed(Id)) )),
     result(Result, Transfer).
 

@@ -25,8 +25,8 @@
 
 /** <module> Agents under way
 
-A transfer is hop(Id, Dest, Hops), with the id of the agent and the number
-of the hop, or clone(Id, Dest, CloneId).  Dest is
+A transfer is transfer(Id, Dest, Hops), with the id of the agent and the number
+of the hop, or clone_transfer(Id, Dest, CloneId).  Dest is
 dest(Address, Name, Endpoint). During the transfer the agent is frozen in this
 process; the transfer ends when the agent has arrived, or stays.
 
@@ -103,17 +103,17 @@ resolve_in_doubt/1 in reader threads, which never wait; ask_peers/2 in a worker.
 %
 %   Id is the agent under way, on its hop number Hops.
 
-transfer_traveller(hop(Id, _, Hops), Id, Hops).
-transfer_traveller(clone(_, _, CloneId), CloneId, 1).
+transfer_traveller(transfer(Id, _, Hops), Id, Hops).
+transfer_traveller(clone_transfer(_, _, CloneId), CloneId, 1).
 
 %!  transfer_image(+Transfer, +Held, +Mail, +Since, -Image) is det.
 %
 %   Image is the image to send; binds the hole, and the number of the hop.
 
-transfer_image(hop(Id, _, Hops), Hole-Goals, Mail, Since, Image) :-
+transfer_image(transfer(Id, _, Hops), Hole-Goals, Mail, Since, Image) :-
     ignore(Hole = true),                % Hole is bound if the move was an order
     image_hop(Id, Hops, Goals, Mail, Since, Image).
-transfer_image(clone(Id, _, CloneId), Hole-Goals-Role, _, Since,
+transfer_image(clone_transfer(Id, _, CloneId), Hole-Goals-Role, _, Since,
                Image) :-
     Hole = (Role=clone(Id)),
     image_clone(Id, CloneId, Goals, Since, Image).
@@ -129,16 +129,16 @@ transfer_image(Transfer, Image) :-
     with_agent(Id, ( frozen(Transfer, Held, Mail, Since),
                      transfer_image(Transfer, Held, Mail, Since, Image) )).
 
-frozen(hop(Id, _, Hops), Held, Mail, Since) :-
+frozen(transfer(Id, _, Hops), Held, Mail, Since) :-
     agent_status(Id, transit(_, _), hop(Held, Hops, Mail, Since)).
-frozen(clone(Id, _, CloneId), Held, [], Since) :-
+frozen(clone_transfer(Id, _, CloneId), Held, [], Since) :-
     agent_status(Id, cloning(_, _), clone(Held, CloneId, Since)).
 
 %!  transfer_freeze(+Transfer, +Held, -Mail, +Since) is semidet.
 %
 %   Begin the transfer; inside with_agent/2.  Fails if the agent was ended.
 
-transfer_freeze(hop(Id, dest(Address, _, Endpoint), Hops), Held, Mail,
+transfer_freeze(transfer(Id, dest(Address, _, Endpoint), Hops), Held, Mail,
                 Since) :-
     agent_status(Id, Status, _),
     ( Status == running -> true ; Status == obeying ),
@@ -146,7 +146,7 @@ transfer_freeze(hop(Id, dest(Address, _, Endpoint), Hops), Held, Mail,
     mail_all(Id, Mail),
     agent_put(Id, transit(Address, Sent), hop(Held, Hops, Mail, Since)),
     debug(typhon(hop), '~w hop ~D: leaves for ~w', [Id, Hops, Address]).
-transfer_freeze(clone(Id, dest(Address, _, Endpoint), CloneId), Held,
+transfer_freeze(clone_transfer(Id, dest(Address, _, Endpoint), CloneId), Held,
                 [],
                 Since) :-
     departs(CloneId, 1, Endpoint, Sent),
@@ -202,7 +202,7 @@ transfer_arrived(Transfer) :-
     ;   arrived(Transfer)
     ).
 
-arrived(hop(Id, dest(Address, _, Endpoint), Hops)) :-
+arrived(transfer(Id, dest(Address, _, Endpoint), Hops)) :-
     (   with_agent(Id, departed(Id, Hops, Address, Endpoint, Orders, Gone))
     ->  debug(typhon(hop), '~w hop ~D: has gone', [Id, Hops]),
         call(Gone),
@@ -215,7 +215,7 @@ arrived(hop(Id, dest(Address, _, Endpoint), Hops)) :-
         follow(Id, dispose)
     ;   true                            % it came back before the answer
     ).
-arrived(clone(Id, dest(Address, _, Endpoint), CloneId)) :-
+arrived(clone_transfer(Id, dest(Address, _, Endpoint), CloneId)) :-
     debug(typhon(hop), '~w hop 1: has gone', [CloneId]),
     transfer_over(CloneId, 1),
     agent_departed_to(CloneId, Address, 1, Endpoint),
@@ -280,7 +280,7 @@ transfer_stays(Transfer, Error) :-
     unit_of_work(( transfer_over(Agent, Hop),
                    stays(Transfer, Error) )).
 
-stays(hop(Id, dest(Address, _, _), Hops), Error) :-
+stays(transfer(Id, dest(Address, _, _), Hops), Error) :-
     (   retract(given_up(Id, Hops))
     ->  durable_drop(given_up, Id, Hops)
     ;   true
@@ -290,7 +290,7 @@ stays(hop(Id, dest(Address, _, _), Hops), Error) :-
     ;   true
     ),
     ignore(with_agent(Id, back(Id, Hops, Address, Error))).
-stays(clone(Id, dest(Address, _, _), CloneId), Error) :-
+stays(clone_transfer(Id, dest(Address, _, _), CloneId), Error) :-
     clone_unborn(Id, CloneId),
     agent_ended(CloneId, failed, 1, []),
     ignore(with_agent(Id, clone_back(Id, CloneId, stays(Address, Error)))).
@@ -341,10 +341,10 @@ transfer_open(Transfer) :-
     open_transfer(Status, Id, Frozen, Transfer).
 
 open_transfer(transit(Address, _), Id, hop(_, Hops, _, _),
-              hop(Id, dest(Address, Name, Endpoint), Hops)) :-
+              transfer(Id, dest(Address, Name, Endpoint), Hops)) :-
     address_parts(Address, Name, Endpoint).
 open_transfer(cloning(Address, _), Id, clone(_, CloneId, _),
-              clone(Id, dest(Address, Name, Endpoint), CloneId)) :-
+              clone_transfer(Id, dest(Address, Name, Endpoint), CloneId)) :-
     address_parts(Address, Name, Endpoint).
 
 %!  transfer_held(+Frozen, -Held) is semidet.
