@@ -32,4 +32,4 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(wire/threads, [manager_notify/1]).
 :- reexport(wire/transport,
             [ endpoint_own_proof/1, line_read/3, line_write/2, refusal_text/2,
-              transport_disagrees/1 ]).
+              transport_disagrees/1, transport_octets/1 ]).

@@ -67,7 +67,7 @@ thread of a client reports its progress and returns its own.
                 wire_thread_signal/2 ]).
 :- use_module(transport,
               [ line_read/3, line_write/2, refusal_text/2, transport_close/0,
-                transport_first/2, transport_open/6 ]).
+                transport_first/2, transport_octets/1, transport_open/6 ]).
 
 :- setting(typhon_acceptor:unproved, positive_integer, 128,
            "Connections at a time that have not proved themselves").
@@ -223,15 +223,8 @@ open_streams(Socket, In, Out) :-
           Error,
           ( tcp_close_socket(Socket),
             throw(Error) )),
-    octets(In),
-    octets(Out).
-
-%   For the flag stream_type_check, the bytes of frames are characters.
-
-octets(Stream) :-
-    set_stream(Stream, type(text)),
-    set_stream(Stream, encoding(iso_latin_1)),
-    set_stream(Stream, buffer_size(65536)).
+    transport_octets(In),
+    transport_octets(Out).
 
 		 /*******************************
 		 *           MEETING            *

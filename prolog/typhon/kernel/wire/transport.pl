@@ -6,6 +6,7 @@
             transport_unknown/1,        % -Proof
             transport_first/2,          % +Byte, +Out
             transport_open/6,           % +Role, +In, +Out, -TIn, -TOut, -Proof
+            transport_octets/1,         % +Stream
             transport_close/0,
             transport_proof/1,          % -Proof
             transport_as/2,             % +Proof, :Goal
@@ -189,6 +190,16 @@ transport_open(Role, In, Out, TIn, TOut, Proof) :-
         Proof = cookie
     ),
     nb_setval(typhon_proof, Proof).
+
+%!  transport_octets(+Stream) is det.
+%
+%   Stream carries frames: their bytes are characters, for the flag
+%   stream_type_check.
+
+transport_octets(Stream) :-
+    set_stream(Stream, type(text)),
+    set_stream(Stream, encoding(iso_latin_1)),
+    set_stream(Stream, buffer_size(65536)).
 
 %!  transport_close is det.
 %

@@ -27,7 +27,7 @@ of its connection.  The connection manager limits its duration.
 :- use_module(library(settings), [setting/2]).
 :- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../../kernel/wire',
-              [line_read/3, line_write/2, manager_notify/1]).
+              [line_read/3, line_write/2, manager_notify/1, transport_octets/1]).
 :- use_module('../keys',
               [ key_loaded/3, keys_certificate/2, keys_file/3, keys_holder/3,
                 own_keys/1, own_keys_begin/1, own_keys_end/0 ]).
@@ -170,7 +170,7 @@ handshake(Role, Directory, In, Out, SIn, SOut, Name) :-
     nb_setval(typhon_secure, under(In, Out)),
     ssl_negotiate(Context, In, Out, SIn, SOut),
     nb_setval(typhon_secure, over(SIn, SOut)),
-    maplist(octets, [SIn, SOut]),
+    maplist(transport_octets, [SIn, SOut]),
     peer_name(SIn, Name),
     welcome(Role, SIn, SOut).
 
@@ -189,11 +189,6 @@ welcome(client, SIn, _) :-
     ->  true
     ;   permission_error(authenticate, peer, protocol)
     ).
-
-octets(Stream) :-
-    set_stream(Stream, type(text)),
-    set_stream(Stream, encoding(iso_latin_1)),
-    set_stream(Stream, buffer_size(65536)).
 
 peer_name(SIn, Name) :-
     ssl_peer_certificate(SIn, Certificate),
