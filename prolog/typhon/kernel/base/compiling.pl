@@ -132,27 +132,18 @@ is_plain(File) :-
 
 :- public stored/1.
 
-%   stored(+Clause) is semidet: Clause has been stored, and is not expanded.
-%   Clauses of hooks are left to typhon_on_demand, rules of grammars to Prolog.
-%   Programs that only read a file, as prolog_xref does, get its clauses.
+%   stored(+Term) is semidet: Term is a clause, or a rule of a grammar, and has
+%   been stored, not expanded, see typhon_on_demand.  Programs that only read a
+%   file, as prolog_xref does, get its terms.
 
-stored(Clause) :-
+stored(Term) :-
     prolog_load_context(source, File),
     plain(File),
-    clause_head(Clause, Head),
-    \+ not_stored(Head),
+    \+ not_stored(Term),
     \+ current_prolog_flag(xref, true),
+    ( Term = (_-->_) -> dcg_translate_rule(Term, Clause) ; Clause = Term ),
     '$compile_term'(Clause, _, File, []).
 
-clause_head((Head:-_), Head) :- !.
-clause_head((Head=>_), Head) :- !.
-clause_head(Head, Head).
-
-not_stored(_:_).
 not_stored((:-_)).
-not_stored((_-->_)).
 not_stored(begin_of_file).
 not_stored(end_of_file).
-
-system:term_expansion(Clause, []) :-
-    typhon_compiling:stored(Clause).

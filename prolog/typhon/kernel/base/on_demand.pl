@@ -176,3 +176,8 @@ system:term_expansion(Module:Head, []) :-
     typhon_on_demand:hold_hook(Module, Module:Head).
 system:term_expansion(end_of_file, Clauses) :-
     typhon_on_demand:held_hooks(Clauses).
+
+%   The other clauses of the library are stored as they are read.
+
+system:term_expansion(Term, []) :-
+    typhon_compiling:stored(Term).
