@@ -25,7 +25,9 @@ for these.
   | keys        | any      | the process has keys                        |
   | spied       | program  | a predicate of a program is spied or traced |
   | environment | Variable | Variable is set when an endpoint starts     |
-  | program     | read     | a program is read from a file or clauses    |
+  | program     | text     | a program or a payload is to be read        |
+  | program     | read     | a program was read                          |
+  | program     | runs     | a program is about to run                   |
   | fault       | location | an agent has failed, or raised an error     |
   | recipient   | external | a message is for no agent, but a bridge     |
 
