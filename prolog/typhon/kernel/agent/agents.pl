@@ -4,7 +4,6 @@
             agent_on/2,                 % +Id, -Host
             agent_status/3,             % ?Id, ?Status, ?Goals
             agent_rests/3,              % +Id, ?Status, -Goals
-            agent_runs/1,               % +Id
             agent_enter/3,              % +Agent, +Status, +Goals
             agent_remove/2,             % +Id, -Orders
             agent_mobile/6,             % +Id, -Host, -Module, -Hash, -Life,
@@ -284,13 +283,6 @@ goals_shown(hop(Hole-Goals0, Since), Shown) =>
     plain_goals(Goals0, Goals).
 goals_shown(Goals0, Goals) =>
     Goals = Goals0.
-
-%!  agent_runs(+Id) is semidet.
-
-agent_runs(Id) :-
-    record(Id, _, _, _, _, _),
-    \+ agent_rests(Id, _, _),
-    !.
 
 %!  agent_put(+Id, +Status, +Goals) is det.
 %

@@ -104,15 +104,10 @@ agent_name(Id, Name, Number) :-
     !,
     sub_atom(Id, 0, Before, _, Local),
     atomic_list_concat(Parts, '.', Local),
-    name_parts(Parts, Name, Last),
-    atom_number(Last, Number).
-
-name_parts([Name, _Mark, Last], Name, Last) :-
-    !.
-name_parts(Parts, Name, Last) :-
     append(NameParts, [_Mark, Last], Parts),
     !,
-    atomic_list_concat(NameParts, '.', Name).
+    atomic_list_concat(NameParts, '.', Name),
+    atom_number(Last, Number).
 
 %!  agent_home(+Id, -Home) is semidet.
 %

@@ -58,7 +58,7 @@ would lock for each of them.
               [endpoint_address/1, endpoint_parts/3, must_be_endpoint/1]).
 :- use_module(events, [event/4]).
 :- use_module(host_parts, [parts/3, parts_compile/1, parts_forget/1]).
-:- use_module(time, [clock/3, host_time/2, time_now/1, time_stands/0]).
+:- use_module(time, [clock/3, host_time/2, time_flag/1, time_now/1]).
 
 :- dynamic
     host/3,                             % Name, Address, Place
@@ -150,7 +150,7 @@ host_passage(Here, Host, Here-From, Name-To, Since) :-
     atom(Host),
     host_plain(Host, Name, To),
     Name \== Here,
-    (   time_stands
+    (   time_flag(_)
     ->  Since = now
     ;   monotonic_time(Now),
         Since is (Now-Epoch)*Rate

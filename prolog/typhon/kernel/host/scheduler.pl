@@ -89,8 +89,8 @@ index of stamps is on the stack of the timer.
               [ blocked_forget/0, blocked_full/2, blocked_held/1,
                 blocked_kind/1, blocked_release/1, blocked_room/3 ]).
 :- use_module(time,
-              [ alarm_in/3, time_adopt/1, time_alone/0, time_day_wait/3,
-                time_here/2, time_work/1 ]).
+              [ alarm_in/3, time_adopt/1, time_day_wait/3,
+                time_here/2, time_kind/1, time_work/1 ]).
 :- use_module(turns,
               [ turn_begins/1, turn_if_short/2, turn_in/3, turns_go_on/1,
                 turns_not_short/2, turns_pause/0, turns_paused/0 ]).
@@ -118,7 +118,6 @@ index of stamps is on the stack of the timer.
     new/1.                              % Queue of stamps
 
 :- multifile
-    typhon_scheduler:fire/2,            % Agent, Token: an alarm went off
     typhon_time:adopt/2,
     typhon_time:alarm/4,
     typhon_time:alone/1,
@@ -131,7 +130,7 @@ index of stamps is on the stack of the timer.
     typhon_time:starts/1,
     typhon_time:stops/1,
     typhon_time:wait/4,
-    typhon_time:work/2,                 % Agent, Token: an alarm went off
+    typhon_time:work/2,
     prolog:message//1,
     run/1,                              % Agent: run it until it has to wait
     run_on/4,                           % Agent, Host, Context, Goals: run it, which
@@ -142,8 +141,7 @@ index of stamps is on the stack of the timer.
     takes_turn/3,                       % Host, Agent, Work: Agent may run on Host
     next_turn/2,                        % Host, Work: a turn on Host is free for Work
     agent_parked/1,
-    typhon_on_demand:worker_call/1,     % Agent, Token: an alarm went off
-    typhon_scheduler:over/2.            % Agent, Token: it is obsolete
+    typhon_on_demand:worker_call/1.
 
 :- public timed/3.
 
@@ -464,10 +462,6 @@ mostly_free(Queue) :-
                 *            TIMER             *
                 *******************************/
 
-                /*******************************
-                *        START AND STOP        *
-                *******************************/
-
 %!  timer_start is det.
 
 timer_start :-
@@ -671,7 +665,8 @@ schedule_stays(Here, There) :-
         \+ limited(There)
     ;   true
     ),
-    time_alone.
+    time_kind(Kind),
+    typhon_time:alone(Kind).
 
 %!  schedule_here(+Host, +Kind, :Turn) is semidet.
 %

@@ -7,9 +7,8 @@
             time_apart/2,               % ?Kind, -Address
             time_repeats/2,             % ?Kind, -Mark
             time_now/1,                 % -Stamp
-            time_stands/0,
+            time_flag/1,                % -Flag
             time_work/1,                % +Work
-            time_alone/0,
             time_here/2,                % +Agents, :Turn
             time_adopt/1,               % +Thread
             time_leave/0,
@@ -63,14 +62,14 @@ experiments are written in host seconds and run as fast as Rate says.
 :- dynamic
     state/2,
     time_kind/1,                        % Kind: while it runs
-    own_clock/1,                        % Flag, as in clock/2: while it runs
+    time_flag/1,                        % Flag, as in clock/2: while it runs
     clock/3.                            % Host, Epoch, Rate
 
 :- multifile
     starts/1,                           % Kind
     stops/1,                            % Kind
     work/2,                             % Kind, Work: see time_work/1
-    alone/1,                            % Kind: see time_alone/0
+    alone/1,                            % Kind: no other work waits
     alarm/4,                            % Kind, Stamp, Agent, Token: see alarm_set/3
     wait/4,                             % Kind, Queue, Message, Stamp: see time_wait/3
     signal/2,                           % Kind, Goal: see time_signal/1
@@ -104,7 +103,7 @@ time_start(Kind) :-
     !.
 time_start(Kind) :-
     starts(Kind),
-    forall(clock(Kind, Flag), assertz(own_clock(Flag))),
+    forall(clock(Kind, Flag), assertz(time_flag(Flag))),
     assertz(time_kind(Kind)).
 
 %!  time_stop is det.
@@ -113,7 +112,7 @@ time_start(Kind) :-
 
 time_stop :-
     (   retract(time_kind(Kind))
-    ->  retractall(own_clock(_)),
+    ->  retractall(time_flag(_)),
         stops(Kind)
     ;   true
     ).
@@ -169,18 +168,15 @@ time_repeats(Kind, Mark) :-
 %   The time now, of the clock of the runtime.
 
 time_now(Stamp) :-
-    own_clock(Flag),
+    time_flag(Flag),
     !,
     get_flag(Flag, Stamp).
 time_now(Stamp) :-
     monotonic_time(Stamp).
 
-%!  time_stands is semidet.
+%!  time_flag(-Flag) is semidet.
 %
-%   No time passes while a goal runs.
-
-time_stands :-
-    own_clock(_).
+%   Flag holds the time, which stands still while a goal runs.
 
 %!  alarm_set(+Stamp, +Agent, +Token) is det.
 %
@@ -274,14 +270,6 @@ time_work(Work) :-
     !,
     work(Kind, Work).
 time_work(_).                           % the runtime is stopping
-
-%!  time_alone is semidet.
-%
-%   No other work waits: the thread may go on with its agent.
-
-time_alone :-
-    time_kind(Kind),
-    alone(Kind).
 
 %!  time_here(+Agents, :Turn) is semidet.
 %

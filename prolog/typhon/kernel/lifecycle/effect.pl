@@ -47,10 +47,17 @@ timer.
 %   @error an error to be raised at the control predicate
 
 effect(move(Host), Hole, Goals, Id-Here, Next) :-
-    (   hop_at_once(Id, Here, Host, Hole, Goals, Next0)
-    ->  Next = Next0
-    ;   destination(Host, Dest),
-        move(Dest, Hole, Goals, Id-Here, Next)
+    hop_at_once(Id, Here, Host, Hole, Goals, Next),
+    !.
+effect(move(Host), Hole, Goals, Id-Here, Next) :-
+    destination(Host, Dest),
+    (   Dest == local(Here)
+    ->  Hole = true,
+        Next = go(Goals)
+    ;   hand_over(Id, Here, Dest, Hole, Goals)
+    ->  Next = stop
+    ;   parts_call(acts, Here, [Id, move]),
+        set_out(Dest, Hole, Goals, Id-Here, Next)
     ).
 effect(clone(Role), Hole, Goals, Id-Here, go(Goals)) :-
     parts_call(acts, Here, [Id, clone]),
@@ -211,16 +218,6 @@ typhon_scheduler:kind(Id, Program) :-
                 /*******************************
                 *        MOVE AND CLONE        *
                 *******************************/
-
-move(Dest, Hole, Goals, Id-Here, Next) :-
-    (   Dest == local(Here)
-    ->  Hole = true,
-        Next = go(Goals)
-    ;   hand_over(Id, Here, Dest, Hole, Goals)
-    ->  Next = stop
-    ;   parts_call(acts, Here, [Id, move]),
-        set_out(Dest, Hole, Goals, Id-Here, Next)
-    ).
 
 set_out(Dest, Hole, Goals, Id-Here, Next) :-
     agent(Id, _, _, _, Life),

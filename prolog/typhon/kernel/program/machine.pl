@@ -93,20 +93,16 @@ first_outcome(Goals, Context, Outcome) :-
     !,
     Outcome = Outcome0.
 first_outcome(Goals, Context, Outcome) :-
-    engine(Context, X),
+    Context = context(Program, Agent),
+    (   chunks_ready(Program)           % usually
+    ->  X = compiled(Program, Agent)
+    ;   X = Context
+    ),
     prolog_current_choice(Base),
     continue(Goals, X, Base, Out),
     !,
     outcome(Out, Outcome).
 first_outcome(_, _, failed).
-
-%   A compiled program runs in chunks, see typhon_chunks.
-
-engine(context(Program, Agent), X) :-
-    (   chunks_ready(Program)
-    ->  X = compiled(Program, Agent)
-    ;   X = context(Program, Agent)
-    ).
 
 outcome(exit, done).
 outcome(effect(Control, Hole, [First|Goals0]), Outcome) :-

@@ -54,7 +54,7 @@ agent; answers and taken_over/4 in the threads of the endpoint, which never wait
               [ agent/5, agent_build/5, agent_comes/5, agent_gone/3,
                 agent_handed/4, agent_here/5, agent_links/4, agent_mobile/6,
                 agent_module/4, agent_move/5, agent_on/2, agent_passes/6,
-                agent_put/3, agent_ready/2, agent_relink/2, agent_runs/1,
+                agent_put/3, agent_ready/2, agent_relink/2, agent_rests/3,
                 agent_sets_out/7, agent_state/2, agent_state_mobile/4,
                 agent_status/3, agent_thawed/5, agent_under_way/6, gate/4,
                 image_amended/5, image_handed/7, image_hash/2, image_held/2,
@@ -489,7 +489,8 @@ pass(Id, From, To, going(Module, Hash, Life, Until, Since, _), Hole-Goals,
      Next, Seconds) :-
     From = Here-plain(_, Place0, _, _, _, _, _, _, _),
     To = Name-plain(_, Place, _, _, _, _, _, _, _),
-    agent_runs(Id),
+    agent_here(Id, Here, Module, _, _),
+    \+ agent_rests(Id, _, _),           % it runs
     agent_links(Module, Place0, Place, Links),
     host_passes(From, To, Since, Seconds),
     !,

@@ -93,13 +93,6 @@ virtual_now(Stamp) :-
 virtual_steps(Count) :-
     get_flag(typhon_virtual_steps, Count).
 
-%   Only this thread writes the flag, so reading and writing it need no lock.
-
-count_step :-
-    get_flag(typhon_virtual_steps, Steps0),
-    Steps is Steps0+1,
-    set_flag(typhon_virtual_steps, Steps).
-
 %!  virtual_doing(-Work) is semidet.
 %
 %   Work is the work that the calling thread runs.  Fails in every thread but
@@ -118,7 +111,9 @@ virtual_alone :-
     nb_current(typhon_virtual_work, doing(_, 0, Waiting, Queue)),
     message_queue_property(Queue, size(0)),
     none_satisfied(Waiting),
-    count_step.
+    get_flag(typhon_virtual_steps, Steps0),     % written by this thread alone
+    Steps is Steps0+1,
+    set_flag(typhon_virtual_steps, Steps).
 
 %!  virtual_state(-State) is semidet.
 %
@@ -246,7 +241,9 @@ run(Count, Waiting, Queue, Alarms) :-
     step(Message, Left, Waiting, Queue, Alarms).
 
 step(do(Work), Left, Waiting0, Queue, Alarms) :-
-    count_step,
+    get_flag(typhon_virtual_steps, Steps0),
+    Steps is Steps0+1,
+    set_flag(typhon_virtual_steps, Steps),
     nb_linkval(typhon_virtual_work, doing(Work, Left, Waiting0, Queue)),
     nb_linkval(typhon_virtual_alarms, Queue-Alarms),
     catch(( work_do(Work, requeue(Queue)),

@@ -69,6 +69,24 @@ test(static_predicate_stays_behind, true(F == [s(gone)])) :-
           [ (main :- assertz(kept(1)), compile_predicates([kept/1]),
                      move(beta), catch(kept(_), _, assertz(s(gone)))) ],
           A, facts(A, F)).
+test(predicate_made_static_after_a_hop_stays_behind, true(F == [s(gone)])) :-
+    going([alpha,beta],
+          [ (main :- assertz(kept(1)), move(beta), compile_predicates([kept/1]),
+                     move(alpha), catch(kept(_), _, assertz(s(gone)))) ],
+          A, facts(A, F)).
+test(changed_host_is_known_by_its_name_and_by_its_address,
+     true(F = [s(move_refused(_, token)),s(move_refused(_, token))])) :-
+    with_hosts([alpha,beta],
+               ( host_property(beta, address(Beta)),
+                 create([ (main :- move(Beta), move(alpha), receive(_-change),
+                                   try(Beta), try(beta)),
+                          (try(H) :- catch(move(H), error(E, _),
+                                           assertz(s(E)))),
+                          on_message(_, _) ], A),
+                 host_change(beta, tokens([red])),
+                 agent_send(A, change),
+                 wait_state(A, resident),
+                 facts(A, F) )).
 test(order_that_cannot_be_executed, true(At-Ended == alpha-disposed)) :-
     going([alpha-[hop_time(uniform(0.01, 0.02))],beta],
           [ (main :- current_output(S), assertz(s(S))) ], A,
