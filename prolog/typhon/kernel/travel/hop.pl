@@ -91,7 +91,6 @@ agent; answers and taken_over/4 in the threads of the endpoint, which never wait
     sent_again/2,                       % Endpoint, Id: the image is sent again, because
                                         % the receiver lacks the program and its proofs
     typhon_transfer:again/1,
-    typhon_hop:result/2,
     typhon_agents:thaw/1,
     typhon_endpoint:handed_over/2,
     result/2.                           % Result, Transfer: the agent is in transit;

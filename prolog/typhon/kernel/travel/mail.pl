@@ -516,10 +516,6 @@ typhon_durable:undelivered(message, message(Id, Mail, _), _, Formal) :-
     mail_lost(Formal, Id, Mail).
 
                 /*******************************
-                *           BACKLOG            *
-                *******************************/
-
-                /*******************************
                 *            LETTERS           *
                 *******************************/
 
