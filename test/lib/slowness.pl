@@ -87,11 +87,6 @@ patient(set_stream(Stream, timeout(S)), S, set_stream(Stream, timeout(L)), L).
 
 :- if(( slowness(Factor), Factor > 1 )).
 
-user:goal_expansion(Goal, Longer) :-
-    longer(Goal, Longer),
-    prolog_load_context(source, File),
-    sub_atom(File, _, _, _, '/test/').
-
 %   In another process, a goal is data here.
 
 longer(peer_do(Peer, Goal0), peer_do(Peer, Goal)) :-
@@ -102,5 +97,10 @@ longer(Goal, Longer) :-
     integer(Seconds),                   % and More is none
     Seconds >= 5,
     patience(Seconds, More).
+
+user:goal_expansion(Goal, Longer) :-
+    longer(Goal, Longer),
+    prolog_load_context(source, File),
+    sub_atom(File, _, _, _, '/test/').
 
 :- endif.
