@@ -134,13 +134,13 @@ is_plain(File) :-
 
 %   stored(+Term) is semidet: Term is a clause, or a rule of a grammar, and has
 %   been stored, not expanded, see typhon_on_demand.  Programs that only read a
-%   file, as prolog_xref does, get its terms.
+%   file, as prolog_xref and editors do, get its terms.
 
 stored(Term) :-
     prolog_load_context(source, File),
     plain(File),
     \+ not_stored(Term),
-    \+ current_prolog_flag(xref, true),
+    once(system:'$load_input'(File, _)),
     ( Term = (_-->_) -> dcg_translate_rule(Term, Clause) ; Clause = Term ),
     '$compile_term'(Clause, _, File, []).
 
