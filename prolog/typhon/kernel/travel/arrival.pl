@@ -6,6 +6,8 @@
               [ crash_point/1, durable/5, durable_drop_below/3, durable_key/2,
                 durable_on/0, durable_put/4, enqueue_changes/0,
                 unit_of_work/1 ]).
+:- use_module('../base/on_demand',
+              [on_demand_later/1, on_demand_load/2, on_demand_missing/2]).
 :- use_module('../wire',
               [ endpoint_afterwards/1, endpoint_later/1, endpoint_reply/2,
                 endpoint_reply_later/2 ]).
@@ -36,6 +38,7 @@ accepted hops are kept, down to Least.
 */
 
 :- multifile
+    typhon_endpoint:connection/2,
     typhon_endpoint:handed/4,
     typhon_endpoint:lent/1,
     typhon_endpoint:requested/4,
@@ -43,6 +46,15 @@ accepted hops are kept, down to Least.
     typhon_runtime:ending/1.
 
 :- dynamic accepted/2.          % Process, N: of the id of an accepted hop
+
+%   Agents may come from there: a worker loads the compiler before.
+
+typhon_endpoint:connection(_, down).
+typhon_endpoint:connection(_, up) :-
+    (   on_demand_missing(program, runs)
+    ->  ignore(on_demand_later(on_demand_load(program, runs)))
+    ;   true
+    ).
 
 %   The answer is deferred if there is a journal, until the commit, and if code
 %   must be loaded first for extras of the agent.  taken_over/4 accepts no agent

@@ -114,6 +114,13 @@ test(library_alone_neither_reads_nor_compiles_programs, Out == "[]") :-
     seen('host_start(a), \c
           findall(F, ( source_file(F), sub_atom(F, _, _, _, \c
                        \'/typhon/language\') ), Fs), print(Fs)', Out).
+test(connection_loads_the_compiler, Out == "loaded") :-
+    seen('network_start(line(2), N, [processes(2)]), \c
+          network_property(N, hosts([A|_])), \c
+          remote(A, thread_wait(module_property(typhon_chunk_compiler, \c
+                                                exports(_)), \c
+                                [timeout(30), retry_every(0.05)])), \c
+          network_stop(N), write(loaded)', Out).
 test(first_agents_of_many_threads, Out == "[0,1,2,3,4,5,6,7]") :-
     seen('host_start(a), \c
           numlist(0, 7, Ns), \c
