@@ -1,4 +1,5 @@
 :- module(layers_loaded, [loaded_problem/1]).   % -Problem
+:- use_module(library(debug), [debugging/2]).
 :- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(occurs), [sub_term/2]).
 :- use_module(library(prolog_codewalk), [prolog_walk_code/1]).
@@ -12,7 +13,7 @@ All modules of Typhon are loaded, as in a process without autoloading:
   - each imports, or declares by autoload/2, what it calls, also in arguments
     of meta predicates;
   - where clauses are stored as they are read, see typhon_compiling, nothing in
-    them would be expanded.
+    them would be expanded, and topics of debug/3 are declared.
 
 *Threading*: the main thread.
 */
@@ -20,6 +21,16 @@ All modules of Typhon are loaded, as in a process without autoloading:
 %!  loaded_problem(-Problem) is nondet.
 
 loaded_problem(Problem) :-
+    inside('prolog/typhon.pl', Library),
+    use_module(Library, []),
+    findall(File-Module,
+            ( product_module(File, Module),
+              typhon_compiling:is_plain(File) ),
+            Plain),
+    forall(member(File-_, Plain), use_module(File, [])),
+    findall(expanded(Module, PI),
+            ( member(_-Module, Plain), expanded(Module, PI) ),
+            Expanded),
     forall(product_module(File, _), use_module(File, [])),
     set_prolog_flag(autoload, false),
     (   product_module(_, Module),
@@ -29,10 +40,7 @@ loaded_problem(Problem) :-
                            on_trace(layers_loaded:keep) ]),
         missing(Module, PI),
         Problem = not_imported(Module, PI)
-    ;   product_module(File, Module),
-        typhon_compiling:is_plain(File),
-        expanded(Module, PI),
-        Problem = expanded(Module, PI)
+    ;   member(Problem, Expanded)
     ).
 
 expanded(Module, Name/Arity) :-
@@ -44,6 +52,10 @@ expanded(Module, Name/Arity) :-
     once(( sub_term(Part, Head-Body), is_expanded(Part) )),
     functor(Head, Name, Arity).
 
+is_expanded(debug(Topic, _, _)) :-
+    ground(Topic),
+    \+ debugging(Topic, _),
+    !.
 is_expanded(Part) :-
     compound(Part),
     (   Part = (Parameters>>_)

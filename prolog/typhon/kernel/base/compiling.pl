@@ -1,10 +1,11 @@
 :- module(typhon_compiling,
           [ compiling_begin/1,          % -Flags
             compiling_end/1,            % +Flags
-            compiling/1                 % :Goal
+            compiling/1,                % :Goal
+            topics/1                    % +Names
           ]).
 :- ':'(system, set_module(':'(typhon_compiling, base(system)))).
-:- use_module(library(debug), []).      % from 9.2 on it defines a flag
+:- use_module(library(debug), [debugging/2, nodebug/1]).
 :- use_module(library(lists), [member/2]).
 
 :- meta_predicate compiling(0).
@@ -115,6 +116,17 @@ note_plain(File) :-
     ->  assertz(plain(File))
     ;   true
     ).
+
+%!  topics(+Names:list) is det.
+%
+%   Declare topics typhon(Name) of debug/3, as its expansion would.
+
+topics(Names) :-
+    forall(( member(Name, Names), \+ debugging(typhon(Name), _) ),
+           nodebug(typhon(Name))).
+
+:- topics([ agent, connect, frame, hop, host, mail, network, program,
+            scheduler, security, session ]).
 
 %   is_plain(+File) is semidet: clauses in File are stored as they are read, as
 %   they have neither lambda expressions nor functions on dicts, see

@@ -47,11 +47,7 @@ last two tables hold only places that were asked for.
     compiled/1,                 % +Module: compile the program in Module
     place_plain/4,              % +Place, +Vars, -Goals, ?Rest: as
                                 % frame_goals/4, from the clause
-    place_left/4.               % +Place, +Vars, -Goal, -Goals: Goal is the goal
-                                % at Place; Goals are the goals that are left
-                                % there, with cuts as the machine has them. Vars
-                                % is only the name of the module if the variables
-                                % are not known
+    place_left/4.               % see below
 
 %!  chunks_ready(+Module) is semidet.
 %
@@ -112,10 +108,12 @@ frame_goals(Place, Vars, Goals, Rest) :-
     ;   place_plain(Place, Vars, Goals, Rest)
     ).
 
+%!  place_left(+Place, +Vars, -Goal, -Goals) is det.
 %!  place_marked(+Place, +Vars, -Left) is det.
 %
-%   Left is Goals-Rest: the Goals that are left at Place, as in place_left/4,
-%   followed by Rest.
+%   Goal is the goal at Place; Goals, or Left = Goals-Rest, are the goals that
+%   are left there, with cuts as the machine has them.  Vars is only the name
+%   of the module if the variables are not known.
 
 place_marked(Place, Vars, Goals-Rest) :-
     functor(Vars, Module, _),

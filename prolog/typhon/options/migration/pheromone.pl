@@ -10,6 +10,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../../kernel/base/compiling', [topics/1]).
 :- use_module('../../kernel/base/error_text', [is_tree/2, print_error/2]).
 :- use_module('../../kernel/base/prng', [chance_member/4]).
 :- use_module('../../kernel/base/options', [check_options/2]).
@@ -45,6 +46,8 @@ does not fit is dropped, and spreads no further.
 
 *Threading*: any thread.  A worker stores and forwards arriving pheromones.
 */
+
+:- topics([pheromone]).
 
 :- multifile
     typhon_options:declared/4,

@@ -3,6 +3,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../../kernel/base/compiling', [topics/1]).
 :- use_module('../../kernel/base/own_thread', [stop_thread/1]).
 :- use_module('../../kernel/wire',
               [endpoint_address/1, endpoint_reply/2, mobile_term/1]).
@@ -37,6 +38,8 @@ Events are sent with requests of kind `watched`:
 record.  The sender is no `server`, since it waits for the answer of the watch
 to each batch.
 */
+
+:- topics([watch]).
 
 :- multifile
     typhon_endpoint:connection/2,
