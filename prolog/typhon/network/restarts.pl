@@ -9,6 +9,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2, min_member/2, selectchk/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../kernel/base/fifo', [fifo_empty/2]).
 :- use_module('../kernel/base/monotonic', [monotonic_time/1, poll_within/2]).
 :- use_module('../kernel/base/error_text', [print_error/2]).
 :- use_module('../kernel/base/server',
@@ -65,14 +66,8 @@ restarts_begin(Network, Queue, Do) :-
                  Server),
     with_mutex(typhon_restarts,
                ( assertz(restarter(Network, Server)),
-                 forward_events(Queue, Server) )).
-
-forward_events(Queue, Server) :-
-    (   thread_get_message(Queue, Event, [timeout(0)])
-    ->  server_cast(Server, Event),
-        forward_events(Queue, Server)
-    ;   true
-    ).
+                 fifo_empty(Queue, Events),
+                 forall(member(Event, Events), server_cast(Server, Event)) )).
 
 %!  restarts_end(+Network) is det.
 %

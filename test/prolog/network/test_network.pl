@@ -196,6 +196,21 @@ test(machines_are_reached_by_a_program_like_ssh) :-
                              edges_are([1-2, 1-5, 2-3, 3-4, 4-5],
                                        Network) ))) )).
 
+%   A setup leaves signals pending.
+
+test(network_with_restart_starts_in_a_setup) :-
+    thread_create(started_in_a_setup, Thread),
+    wait_until(\+ thread_property(Thread, status(running)), 60),
+    thread_join(Thread, true).
+
+started_in_a_setup :-
+    thread_self(Me),
+    setup_call_cleanup(
+        ( thread_signal(Me, true),
+          network_start(ring(2), Network, [processes(2), restart(true)]) ),
+        true,
+        network_stop(Network)).
+
 :- end_tests(networks).
 
 :- begin_tests(network_time).
