@@ -168,11 +168,10 @@ held(alarm(A)) :-
     predicate_property(typhon_scheduler:A, dynamic),
     clause(typhon_scheduler:A, true).
 held(fact(M:A)) :-
-    member(M, [typhon_connection_manager,typhon_session,typhon_connection_manager,
-               typhon_peer_cache,typhon_hop_ids,typhon_transfer,typhon_transfer,
-               typhon_arrival,typhon_whereabouts,typhon_whereabouts,typhon_news,typhon_window,
-               typhon_session,typhon_session,typhon_session,typhon_committing,typhon_connection,
-               typhon_reader]),
+    member(M, [ typhon_connection_manager, typhon_session, typhon_peer_cache,
+                typhon_hop_ids, typhon_transfer, typhon_arrival,
+                typhon_whereabouts, typhon_news, typhon_window,
+                typhon_committing, typhon_connection, typhon_reader ]),
     current_predicate(M:F/N),
     functor(A, F, N),
     predicate_property(M:A, dynamic),
