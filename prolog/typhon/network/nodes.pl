@@ -22,6 +22,7 @@
 :- use_module(library(error), [existence_error/2, permission_error/3]).
 :- use_module(library(lists), [member/2, selectchk/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../kernel/base/fifo', [fifo_send/2]).
 :- use_module('../kernel/base/monotonic',
               [ monotonic_time/1, poll_within/2, wait_within/2 ]).
 :- use_module('../kernel/base/error_text', [harmless_error/2]).
@@ -227,9 +228,7 @@ send(Network, P, Order, Queue) :-
     ).
 
 answered(Queue, P, Result) :-
-    catch(thread_send_message(Queue, P-Result),
-          error(existence_error(_, _), _),
-          true).                % the caller has stopped waiting
+    ignore(fifo_send(Queue, P-Result)). % the caller may have stopped waiting
 
 answers([], _, _, _, []) :-
     !.

@@ -10,6 +10,7 @@
           ]).
 :- use_module(library(error), [existence_error/2, permission_error/3]).
 :- use_module(library(option), [option/3]).
+:- use_module('../../kernel/base/fifo', [fifo_send/2]).
 :- use_module('../../kernel/base/json', [json_text/2]).
 :- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
 :- use_module('../../kernel/base/server',
@@ -147,9 +148,7 @@ ask(Name, Owner, Request, Seconds, Answer) :-
 helper_send(Name, Request) :-
     find_helper(Name, Owner, Lines),
     json_text(Request, Line),
-    catch(thread_send_message(Lines, Line),
-          error(existence_error(_, _), _),
-          existence_error(helper, Name)),
+    ( fifo_send(Lines, Line) -> true ; existence_error(helper, Name) ),
     pass(Name, Owner, line).
 
 helper_note(Name, Request) :-

@@ -15,6 +15,7 @@
 :- use_module(library(error), [existence_error/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
+:- use_module('../../kernel/base/fifo', [fifo_send/2]).
 :- use_module('../../kernel/base/monotonic', [wait_within/2]).
 :- use_module('../helper',
               [ helper_call/5, helper_close/1, helper_file/2, helper_note/2,
@@ -181,9 +182,7 @@ wait(Queue, Seconds, Answer) :-
 answer_come(Id, Answer) :-
     retract(awaited(Id, _, Queue)),
     !,
-    catch(thread_send_message(Queue, answer(Answer)),
-          error(existence_error(_, _), _),
-          fail).
+    fifo_send(Queue, answer(Answer)).
 
 %!  answers_fail(+Host, +Why) is det.
 %

@@ -11,6 +11,7 @@
 :- use_module(library(http/websocket), [ws_open/3, ws_send/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../../kernel/base/fifo', [fifo_send/2]).
 :- use_module('../../kernel/base/monotonic',
               [ monotonic_time/1, poll_within/2, wait_within/2 ]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
@@ -139,8 +140,7 @@ unregister_reader(Host, Reader) :-
 
 close_down(Host, Reader) :-
     thread_self(Me),
-    catch(thread_send_message(Reader, stop(Me)),
-          error(existence_error(_, _), _), true),
+    ignore(fifo_send(Reader, stop(Me))),
     (   send_close(Host),
         bye_seconds(Seconds),
         wait_within(Seconds, thread_get_message(Me, stopped(Reader)))
@@ -168,8 +168,7 @@ close_all :-
 order_stop(Host, Reader) :-
     thread_self(Me),
     Reader \== Me,
-    catch(thread_send_message(Reader, stop(Me)),
-          error(existence_error(_, _), _), fail),
+    fifo_send(Reader, stop(Me)),
     (   send_close(Host)
     ->  true
     ;   interrupt(Reader)
@@ -231,9 +230,7 @@ pause(Link, Pause) :-
 %   The thread in rosbridge_open/4 waits for the result of the first attempt.
 
 report_attempt(Asker, Result) :-
-    catch(thread_send_message(Asker, attempt(Result)),
-          error(existence_error(_, _), _),
-          true).
+    ignore(fifo_send(Asker, attempt(Result))).
 
 %   A cleanup handler cannot be used, since it must not wait.  So a thread that
 %   is interrupted during tidy/3 repeats it.

@@ -1,5 +1,6 @@
 :- module(typhon_fifo,
-          [ fifo_take/2,                % +Queue, ?Message
+          [ fifo_send/2,                % +Queue, +Message
+            fifo_take/2,                % +Queue, ?Message
             fifo_empty/2,               % +Queue, -Messages
             fifo_size/2                 % +Queue, -Size
           ]).
@@ -19,8 +20,19 @@ message queues and mutexes.  There the end of this module defines those of
 their predicates that the kernel uses, in module `user`, where all modules find
 them.  Such a queue cannot wait: no message can arrive while the caller waits.
 
-*Threading*: only for queues with one reader at a time.
+*Threading*: any thread sends; the rest is only for queues with one reader at a
+time.
 */
+
+%!  fifo_send(+Queue, +Message) is semidet.
+%
+%   Add Message to Queue, a message queue or a thread.  Fails if there is none:
+%   its reader no longer waits, or has ended.
+
+fifo_send(Queue, Message) :-
+    catch(thread_send_message(Queue, Message),
+          error(existence_error(_, _), _),
+          fail).
 
 %!  fifo_empty(+Queue, -Messages:list) is det.
 %

@@ -10,6 +10,7 @@
             server_stop/1,              % +Server
             server_leave/1              % +Server
           ]).
+:- use_module(fifo, [fifo_send/2]).
 :- use_module(monotonic, [wait_before/2, wait_within/2]).
 :- use_module(error_text, [error_lines/3, is_abort/1]).
 
@@ -146,8 +147,7 @@ refuse_calls(_).
 %   Fails if the server has been stopped.
 
 server_cast(Queue, Message) :-
-    catch(thread_send_message(Queue, Message),
-          error(existence_error(_, _), _), fail),
+    fifo_send(Queue, Message),
     server_check(Queue).
 
 %!  server_call(+Server, +Request, +Seconds, -Answer) is semidet.
@@ -182,8 +182,7 @@ server_answer(Caller, Answer) :-
     answer(Caller, answer(Answer)).
 
 answer(Caller, Result) :-
-    catch(thread_send_message(Caller, Result),
-          error(existence_error(_, _), _), true).  % the caller no longer waits
+    ignore(fifo_send(Caller, Result)).  % the caller may have given up
 
 %!  server_check(+Server) is det.
 %

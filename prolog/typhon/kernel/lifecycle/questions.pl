@@ -12,6 +12,7 @@
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [last/2, member/2]).
 :- use_module(library(settings), [setting/4]).
+:- use_module('../base/fifo', [fifo_send/2]).
 :- use_module('../base/monotonic', [monotonic_time/1, wait_before/2]).
 :- use_module('../base/on_demand',
               [on_demand_later/1, on_demand_load/2, on_demand_part/2]).
@@ -233,8 +234,7 @@ not_here(Agent, Asker) :-
 %!  question_answered(+Asker, +Answer) is det.
 
 question_answered(queue(Queue), Answer) :-
-    catch(thread_send_message(Queue, Answer),
-          error(existence_error(_, _), _), true).
+    ignore(fifo_send(Queue, Answer)).
 question_answered(reply(ReplyTo), Answer) :-
     endpoint_reply(ReplyTo, Answer).
 

@@ -53,6 +53,7 @@ sends news to the home, since that may have to connect.
 :- use_module('../base/durable',
               [ durable/5, durable/6, durable_assertz/1, durable_drop/3,
                 durable_drop_all/2, durable_on/0, durable_put/4 ]).
+:- use_module('../base/fifo', [fifo_send/2]).
 :- use_module('../host', [address_parts/3, alarm_in/3]).
 :- use_module('../wire',
               [ arrival_permitted/4, endpoint_address/1, endpoint_gone/1,
@@ -369,8 +370,7 @@ typhon_scheduler:over(Id, join(Token)) :-
     \+ waiter(Id, Token, _).
 
 send_outcome(queue(Queue, Tag), Outcome) :-
-    catch(thread_send_message(Queue, outcome(Tag, Outcome)),
-          error(existence_error(_, _), _), true).
+    ignore(fifo_send(Queue, outcome(Tag, Outcome))).
 send_outcome(reply(ReplyTo), Outcome) :-
     endpoint_reply(ReplyTo, Outcome).
 send_outcome(call(Closure), Outcome) :-

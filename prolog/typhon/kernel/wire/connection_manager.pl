@@ -51,6 +51,7 @@ flushes are for any thread that may wait.
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2, min_list/2, min_member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/fifo', [fifo_send/2]).
 :- use_module('../base/durable', [commit_changes/0]).
 :- use_module('../base/error_text', [print_error/2]).
 :- use_module('../base/monotonic', [monotonic_time/1, wait_before/2]).
@@ -571,19 +572,14 @@ waiting_met(Address, Session) :-
     ).
 waiting_met(_, _).
 
+%   A waiting thread may have been interrupted, and its queue destroyed.
+
 met(thread(Queue), _, _) :-
-    notify(Queue, met).
+    ignore(fifo_send(Queue, met)).
 met(request(Kind, Term, OnAnswer), Address, Session) :-
     catch(request_send(Session, Kind, Term, OnAnswer),
           error(Formal, Context),
           not_sent(Formal, Context, Address, OnAnswer)).
-
-%   The waiting thread may have been interrupted, and its queue destroyed.
-
-notify(Queue, Result) :-
-    catch(thread_send_message(Queue, Result),
-          error(existence_error(_, _), _),
-          true).
 
 %   The caller may have given up the request meanwhile.
 
@@ -616,7 +612,7 @@ waiting_missed(Address, Start) :-
            missed(What)).
 
 missed(thread(Queue)) :-
-    notify(Queue, missed).
+    ignore(fifo_send(Queue, missed)).
 missed(request(_, _, OnAnswer)) :-
     request_answer(unreachable, OnAnswer).
 
@@ -764,6 +760,4 @@ flush(Session, Queue, Deadline) :-
 %   The waiting thread may have given up.
 
 typhon_endpoint:handed_over(flushed(Queue), _) :-
-    catch(thread_send_message(Queue, flushed),
-          error(existence_error(_, _), _),
-          true).
+    ignore(fifo_send(Queue, flushed)).

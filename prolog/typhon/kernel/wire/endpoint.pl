@@ -60,6 +60,7 @@ under the mutex of the endpoint.
             [ tcp_bind/2, tcp_close_socket/1, tcp_listen/2, tcp_open_socket/3,
               tcp_setopt/2, tcp_socket/1 ]).
 :- use_module('../base/compiling', [compiling/1]).
+:- use_module('../base/fifo', [fifo_send/2]).
 :- use_module('../base/durable',
               [ commits_must_succeed/0, durable_item/5, durable_opened/1,
                 durable_put/4, sync_changes/0 ]).
@@ -700,9 +701,7 @@ ask(Addresses, Kind-Term, Queue) :-
                             typhon_endpoint:send_result(Queue, Address))).
 
 send_result(Queue, Address, Result) :-
-    catch(thread_send_message(Queue, Address-Result),
-          error(existence_error(_, _), _),
-          true).                        % the caller no longer waits
+    ignore(fifo_send(Queue, Address-Result)). % the caller may have given up
 
 %   gather(+Open, +Asked, +Asking, +Deadline, -Results)
 

@@ -27,7 +27,8 @@ of its connection.  The connection manager limits its duration.
 :- use_module(library(settings), [setting/2]).
 :- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../../kernel/wire',
-              [line_read/3, line_write/2, manager_notify/1, transport_octets/1]).
+              [ line_read/3, line_write/2, manager_notify/1,
+                transport_octets/1 ]).
 :- use_module('../keys',
               [ key_loaded/3, keys_certificate/2, keys_file/3, keys_holder/3,
                 own_keys/1, own_keys_begin/1, own_keys_end/0 ]).

@@ -8,6 +8,7 @@
           ]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../../kernel/base/fifo', [fifo_send/2]).
 :- use_module('../../kernel/base/monotonic', [wait_within/2]).
 :- use_module('../../kernel/wire',
               [ endpoint_address/1, endpoint_call/5, endpoint_reply/2,
@@ -58,9 +59,7 @@ sender_run(To) :-
 %   Put Message into the queue Signals of a sender, if it still exists.
 
 sender_signal(Signals, Message) :-
-    catch(thread_send_message(Signals, Message),
-          error(existence_error(_, _), _),
-          true).                        % the sender has ended
+    ignore(fifo_send(Signals, Message)). % the sender may have ended
 
 %!  time_at(+Clock, -Time) is det.
 

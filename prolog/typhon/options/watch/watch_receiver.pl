@@ -7,6 +7,7 @@
 :- use_module(library(apply), [partition/4]).
 :- use_module(library(lists), [delete/3, member/2, min_list/2]).
 :- use_module(library(settings), [setting/4]).
+:- use_module('../../kernel/base/fifo', [fifo_send/2]).
 :- use_module('../../kernel/base/monotonic', [monotonic_time/1, wait_before/2]).
 :- use_module('../../kernel/base/error_text', [error_lines/3, is_abort/1]).
 :- use_module('../../kernel/wire',
@@ -84,9 +85,7 @@ typhon_endpoint:connection(Peer, State) :-
 
 receiver_put(Watch, Message) :-
     watch(Watch, Queue),
-    catch(thread_send_message(Queue, Message),
-          error(existence_error(_, _), _),
-          fail).
+    fifo_send(Queue, Message).
 
                 /*******************************
                 *           THE LOOP           *
@@ -196,9 +195,7 @@ request_watch(Endpoint, me(Watch, Queue, _)) :-
 
 put_answer(Queue, What, Endpoint, Result) :-
     Message =.. [What, Endpoint, Result],
-    catch(thread_send_message(Queue, Message),
-          error(existence_error(_, _), _),
-          true).                        % the watch has ended
+    ignore(fifo_send(Queue, Message)).  % the watch may have ended
 
 request_more(peer(ReplyTo)) :-
     endpoint_reply(ReplyTo, more).

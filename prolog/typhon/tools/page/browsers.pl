@@ -8,6 +8,7 @@
 :- use_module(library(http/websocket), [ws_send/2]).
 :- use_module(library(lists), [reverse/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../../kernel/base/fifo', [fifo_send/2]).
 :- use_module('../../kernel/base/monotonic', [monotonic_time/1, poll_within/2]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/base/json', [json_text/2]).
@@ -178,8 +179,7 @@ report_skipped(Skipped, Browser) :-
     put_message(Browser, frame(Text)).
 
 put_message(Browser, Message) :-
-    catch(thread_send_message(Browser, Message),
-          error(existence_error(_, _), _), true).
+    ignore(fifo_send(Browser, Message)).
 
                 /*******************************
                 *          ONE BROWSER         *
