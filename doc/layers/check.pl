@@ -298,9 +298,8 @@ says(stale_kinds, 'doc/wire.md: its table of kinds is not what it is to be: run 
 says(stale_index(F), '~w: is not what it is to be: run doc/layers.pl -- index',
      [F]).
 says(inherits(M), '~w does not inherit from system', [M]).
-says(expanded(M, PI), '~w: a clause of ~w has a lambda expression, a function \c
-     on dicts or a topic of debug/3 that is not declared, see \c
-     kernel/base/compiling.pl', [M, PI]).
+says(expanded(M, PI), '~w: a clause of ~w has a lambda expression or a function \c
+     on dicts, see kernel/base/compiling.pl', [M, PI]).
 says(not_imported(M, PI), '~w calls ~w, and does not import it', [M, PI]).
 says(hook_without_definition(F, H), '~w: no module defines its hook ~w',
      [F, H]).

@@ -1,5 +1,4 @@
 :- module(layers_loaded, [loaded_problem/1]).   % -Problem
-:- use_module(library(debug), [debugging/2]).
 :- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(occurs), [sub_term/2]).
 :- use_module(library(prolog_codewalk), [prolog_walk_code/1]).
@@ -13,7 +12,7 @@ All modules of Typhon are loaded, as in a process without autoloading:
   - each imports, or declares by autoload/2, what it calls, also in arguments
     of meta predicates;
   - where clauses are stored as they are read, see typhon_compiling, nothing in
-    them would be expanded, and topics of debug/3 are declared.
+    them would be expanded.
 
 *Threading*: the main thread.
 */
@@ -52,10 +51,6 @@ expanded(Module, Name/Arity) :-
     once(( sub_term(Part, Head-Body), is_expanded(Part) )),
     functor(Head, Name, Arity).
 
-is_expanded(debug(Topic, _, _)) :-
-    ground(Topic),
-    \+ debugging(Topic, _),
-    !.
 is_expanded(Part) :-
     compound(Part),
     (   Part = (Parameters>>_)

@@ -9,7 +9,9 @@ in a process of its own.
 */
 
 :- use_module('../../../lib/common', [project_file/2, run_swipl/5]).
+:- use_module(library(filesex), [directory_member/3]).
 :- use_module(library(plunit)).
+:- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(lists), [append/2, member/2, subtract/3]).
 
 %   printed(+Goals, -Term): what a process prints that calls Goals, texts.
@@ -60,5 +62,25 @@ test(cross_reference_reads_clauses_and_stores_none, N-M == N-N) :-
                xref_defined(File, fifo_size(_,_), local(_)),\c
                clauses(M),print(N-M)' ],
             N-M).
+
+test(topics_of_the_kernel_are_declared, Missing == []) :-
+    findall(Topic, topic_in('prolog/typhon/kernel', Topic), Topics0),
+    sort(Topics0, Topics),
+    assertion(Topics = [_,_|_]),
+    format(atom(Print),
+           'findall(T, ( member(T, ~q), \\+ debugging(typhon(T), _) ), Ts), \c
+            print(Ts)', [Topics]),
+    printed(['use_module(library(typhon))',Print], Missing).
+
+topic_in(Folder, Topic) :-
+    project_file(Folder, Dir),
+    directory_member(Dir, File, [extensions([pl]), recursive(true)]),
+    read_file_to_string(File, Text, []),
+    sub_string(Text, B, L, _, "debug(typhon("),
+    Begin is B+L,
+    sub_string(Text, Begin, _, 0, Rest),
+    once(sub_string(Rest, End, _, _, ")")),
+    sub_atom(Rest, 0, End, _, Topic),
+    Topic \== 'Name'.             % in typhon_compiling
 
 :- end_tests(compiling).
