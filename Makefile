@@ -145,7 +145,7 @@ release:                ## the archive of a release; URL=https://... of its home
 bench: tools            ## measure; one line per figure
 	@$(SWIPL) bench/run.pl -- --out out/bench
 
-bench-peers: tools      ## hops beside those of Erlang and JADE, if there
+bench-peers: tools      ## compare with Erlang, JADE, SPADE, Pekko, Mesa, if there
 	@$(SWIPL) bench/run.pl -- --out out/bench-peers peers
 
 profile: tools          ## which module takes how long of a hop
@@ -163,17 +163,21 @@ tools:                  ## install what the core needs and is missing
 page-tools:             ## get what plots and layouts of the page need
 	@.ci/page-tools
 
+PEER_JARS = for name in jade pekko; do \
+	    bench/peers/$$name --get >/dev/null || \
+	        echo "$$name is not to be had: what needs it is left out" >&2; \
+	done
+
 tools-peers:            ## install what `make bench-peers` compares with
 	@.ci/install peers
-	@bench/peers/jade --get >/dev/null
+	@$(PEER_JARS)
 
 tools-ros:              ## install ROS 2 from PyPI for library(typhon/ros)
 	@.ci/ros-tools
 
-tools-all:              ## install all that .ci/packages lists, and JADE
+tools-all:              ## install all that .ci/packages lists, JADE and Pekko
 	@.ci/install all
-	@bench/peers/jade --get >/dev/null || \
-	    echo "JADE is not to be had: what needs it is left out" >&2
+	@$(PEER_JARS)
 
 # Of a copy, not of a link to a clone, in which files change.
 install:

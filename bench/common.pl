@@ -5,6 +5,8 @@
             seconds/2,                  % :Goal, -Seconds
             resident_bytes/1,           % -Bytes
             threads/1,                  % -Count
+            measured/3,                 % +Measure, +Count, :Goal
+            told/1,                     % +Fact
             with_peer/2,                % +Prefix, :Goal
             with_peer/3,                % +Prefix, +Options, :Goal
             peer_main/1,                % +Options
@@ -24,6 +26,7 @@ on its standard output; bench/run.pl starts it and makes the table.
 
 :- meta_predicate
     seconds(0, -),
+    measured(+, +, 0),
     with_peer(+, 1),
     with_peer(+, +, 1).
 
@@ -82,6 +85,21 @@ status(Key, Number) :-
     split_string(Line, "\t ", "\t ", Words0),
     exclude(==(""), Words0, [_,Word|_]),
     number_string(Number, Word).
+
+%!  measured(+Measure, +Count, :Goal) is det.
+%!  told(+Fact) is det.
+%
+%   The protocol of bench/peers.pl: writes a fact, and waits for a line.
+
+measured(Measure, Count, Goal) :-
+    told(begin),
+    call(Goal),
+    told(done(Measure, Count)).
+
+told(Fact) :-
+    format('~q.~n', [Fact]),
+    flush_output,
+    read_line_to_string(user_input, _).
 
 %!  with_peer(+Prefix, :Goal) is det.
 %!  with_peer(+Prefix, +Options, :Goal) is det.

@@ -1,10 +1,15 @@
-/*  A platform of Tartarus for bench/tartarus.pl, and an agent that walks,
+/*  A platform of Tartarus for bench/tartarus_ring.pl, and an agent that walks,
 programmed as users of Tartarus would. */
 
 :- prolog_load_context(directory, Dir),
    atom_concat(Dir, '/../prolog', Library),
    asserta(user:file_search_path(library, Library)).
+:- if(getenv('TARTARUS', _)).
+:- getenv('TARTARUS', File),
+   consult(File).
+:- else.
 :- use_module(library(tartarus)).
+:- endif.
 
 :- dynamic walker/3, left/2, began/2, next/1.
 

@@ -1,7 +1,6 @@
 :- module(bench_trip,
           [ with_pong/2,                % +Prefix, :Goal
-            trips/4,                    % +Terms, +Trips, +Streams, -Rates
-            trip_bytes/1                % -Bytes
+            trips/4                     % +Terms, +Trips, +Streams, -Rates
           ]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(lists), [append/3]).
@@ -125,16 +124,6 @@ receive_term(In-_, Term) :-
         read_string(In, Length, Bytes),
         fast_term_serialized(Term, Bytes)
     ).
-
-%!  trip_bytes(-Bytes) is det.
-%
-%   The size of one term.
-
-trip_bytes(Bytes) :-
-    image(Image),
-    fast_term_serialized(Image, String),
-    string_length(String, Length),
-    Bytes is Length+3.
 
 image(hop(peer, image('traveller.abcdefgh.1@here@127.0.0.1:12345', Hash,
                       life(none, 1, inf, [], [], false, []),

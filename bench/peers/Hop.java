@@ -5,44 +5,38 @@ import jade.core.ProfileImpl;
 import jade.core.Runtime;
 import jade.core.behaviours.CyclicBehaviour;
 import jade.wrapper.AgentContainer;
-import java.io.BufferedReader;
-import java.io.InputStreamReader;
-import java.io.PrintStream;
-import java.lang.management.ManagementFactory;
-import java.net.ServerSocket;
 import java.util.LinkedHashMap;
-import java.util.Locale;
 import java.util.Map;
 import java.util.concurrent.CountDownLatch;
 import java.util.logging.LogManager;
 
 /**
- * JADE's side of bench/peers.pl: two containers in two processes, and an
+ * JADE's hops for bench/peers.pl: two containers in two processes, and an
  * agent that moves to and fro.
  *
- *   java -cp CLASSES:JADE Hop
+ *   java -cp CLASSES:JADE Hop hops
  *
  * The agent has 10 facts in a map. Its class, of 30 methods, is known on
  * both sides and does not travel.
  */
 public class Hop {
     static CountDownLatch done;
-    static PrintStream out = System.out;
 
     public static void main(String[] args) throws Exception {
-        System.setOut(System.err);      // JADE is talkative
-        LogManager.getLogManager().reset();
-        if (args.length > 0)
-            there(args[0]);
-        else
-            here(freePort());
+        quiet();
+        if (args.length == 1)
+            here(Bench.freePort());
+        else {
+            container(args[1], false);
+            Bench.other("ready");
+        }
         System.exit(0);
     }
 
-    static String freePort() throws Exception {
-        try (ServerSocket socket = new ServerSocket(0)) {
-            return "" + socket.getLocalPort();
-        }
+    /** JADE is talkative. */
+    static void quiet() {
+        System.setOut(System.err);
+        LogManager.getLogManager().reset();
     }
 
     static AgentContainer container(String port, boolean main)
@@ -58,48 +52,20 @@ public class Hop {
             "jade.core.mobility.AgentMobilityService");
         if (main)
             return Runtime.instance().createMainContainer(profile);
-        profile.setParameter(Profile.LOCAL_PORT, freePort());
+        profile.setParameter(Profile.LOCAL_PORT, Bench.freePort());
         profile.setParameter(Profile.CONTAINER_NAME, "there");
         return Runtime.instance().createAgentContainer(profile);
     }
 
-    /** Says its processor time, in nanoseconds, for each line that comes. */
-    static void there(String port) throws Exception {
-        AgentContainer container = container(port, false);
-        BufferedReader in =
-            new BufferedReader(new InputStreamReader(System.in));
-        do
-            out.println(processorTime());
-        while (in.readLine() != null);
-        container.kill();
-    }
-
     static void here(String port) throws Exception {
         AgentContainer container = container(port, true);
-        Process process = new ProcessBuilder(
-            System.getProperty("java.home") + "/bin/java", "-cp",
-            System.getProperty("java.class.path"), "Hop", port)
-            .redirectError(ProcessBuilder.Redirect.INHERIT).start();
-        try {
-            Other other = new Other(process);
+        Bench.withOther(line -> {
             travel(container, 1, 4000);         // warm up
-            told(container, other, "one", 1, 4000);
-            told(container, other, "ten", 10, 6000);
-        } finally {
-            process.getOutputStream().close();
-            process.waitFor();
-        }
-    }
-
-    static void told(AgentContainer container, Other other, String many,
-                     int agents, int hops) throws Exception {
-        long cpu0 = processorTime() + other.processorTime();
-        long t0 = System.nanoTime();
-        travel(container, agents, hops);
-        double seconds = (System.nanoTime() - t0) * 1.0e-9;
-        long cpu1 = processorTime() + other.processorTime();
-        out.printf(Locale.ROOT, "rates('JADE', %s, %.1f, %.1f).%n", many,
-                   hops / seconds, hops / ((cpu1 - cpu0) * 1.0e-9));
+            Bench.measured("hops(one)", 4000,
+                           () -> travel(container, 1, 4000));
+            Bench.measured("hops(ten)", 6000,
+                           () -> travel(container, 10, 6000));
+        }, "Hop", "there", port);
     }
 
     static void travel(AgentContainer container, int agents, int hops)
@@ -109,30 +75,6 @@ public class Hop {
             container.createNewAgent("traveller" + System.nanoTime(),
                 "Hop$Traveller", new Object[] { hops / agents }).start();
         done.await();
-    }
-
-    static long processorTime() {
-        return ((com.sun.management.OperatingSystemMXBean)
-            ManagementFactory.getOperatingSystemMXBean())
-            .getProcessCpuTime();
-    }
-
-    /** The other process; its first line tells that it is ready. */
-    static class Other {
-        final BufferedReader in;
-        final PrintStream to;
-
-        Other(Process process) throws Exception {
-            in = new BufferedReader(
-                new InputStreamReader(process.getInputStream()));
-            to = new PrintStream(process.getOutputStream(), true);
-            in.readLine();
-        }
-
-        long processorTime() throws Exception {
-            to.println();
-            return Long.parseLong(in.readLine());
-        }
     }
 
     public static class Traveller extends Agent {

@@ -190,6 +190,21 @@ is_commit([Action, "#", Version]) :-
     hexadecimal(Commit, 40),
     string_concat("v", _, Version).
 
+test(each_jar_has_a_version_and_a_checksum) :-
+    project_file('bench/peers', Dir),
+    findall(File, directory_member(Dir, File, [extensions([jars])]), Files),
+    assertion(Files = [_,_|_]),
+    forall(( member(File, Files), file_lines(File, Lines),
+             member(Line, Lines), Line \== "" ),
+           assertion(is_jar(File, Line))).
+
+is_jar(_, Line) :-
+    split_string(Line, " ", "", [Sum,Place]),
+    hexadecimal(Sum, 64),
+    split_string(Place, "/", "", Parts),
+    append(_, [Name,Version,File], Parts),
+    atomics_to_string([Name, -, Version, '.jar'], File).
+
 %   What curl gets is only another file.
 
 test(changed_jade_is_not_used) :-
