@@ -8,8 +8,6 @@
             ended_done/3,               % +Peer, +Id, +Hops
             steps/2,                    % +Id, -Steps
             step_on/3,                  % +Peer, +Id, ?Step
-            bouncer/4,                  % +Peer, +Route, +Hops, -Id
-            bounced/4,                  % +Peer, +Id, -Hops, -Pace
             cloner/3,                   % +Peer, +Host, -Id
             swapper/4,                  % +Peer, +Hosts, +Rounds, -Id
             collector/4,                % +Peer, +Route, +Count, -Id
@@ -194,41 +192,6 @@ collector(Peer, Route, Count, Id) :-
 
 collected(Peer, Id, Count-Sum) :-
     peer_do(Peer, remote(Peer, sense(got(Id, Count, Sum)))).
-
-%!  bouncer(+Peer, +Route, +Hops, -Id) is det.
-%!  bounced(+Peer, +Id, -Hops, -Pace) is semidet.
-%
-%   An agent that waits for `go` and then hops without pause.  At the end it
-%   leaves the number of its hops, and First-Last, the processor time of Peer's
-%   process in the first and in the last tenth of them; every other hop leads
-%   to Peer.
-
-bouncer(Peer, Route, Hops, Id) :-
-    Tenth is Hops//20*2,
-    From is Hops-Tenth,
-    Clauses =
-    [ (:- agent(bouncer, [state([route/1, at/2])])),
-      (main :- receive(_-go), route(Route1), bounce(0, Route1)),
-      (bounce(Hops, _) :- !, spent(T3), leave_pace(T3)),
-      (bounce(K, [Host|Hosts]) :-
-           note(K),
-           append(Hosts, [Host], Route2),
-           move(Host),
-           K1 is K+1,
-           bounce(K1, Route2)),
-      (note(K) :- memberchk(K, [0, Tenth, From]), !,
-                  spent(T), assertz(at(K, T))),
-      note(_),
-      (spent(T) :- statistics(process_cputime, T)),
-      (leave_pace(T3) :- at(0, T0), at(Tenth, T1), at(From, T2),
-                         First is T1-T0, Last is T3-T2,
-                         self(Self), hops(N),
-                         leave(bounced(Self, N, First-Last)))
-    ],
-    peer_agent(Peer, Clauses, [route(Route)], Id).
-
-bounced(Peer, Id, Hops, Pace) :-
-    peer_do(Peer, remote(Peer, sense(bounced(Id, Hops, Pace)))).
 
 %!  cloner(+Peer, +Host, -Id) is det.
 %
