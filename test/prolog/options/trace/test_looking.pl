@@ -343,6 +343,10 @@ test(held_agents_can_be_ended) :-
             ( agent_property(A, state(held)),
               agent_dispose(A),
               agent_join(A, disposed, 1) ), _).
+test(agent_that_ends_itself_is_not_held, Outcome == disposed) :-
+    goes(( self(Self), agent_dispose(Self), sleep(100) ), Program),
+    stepped([(:- use_module(library(typhon)))|Program], 4, A,
+            agent_join(A, Outcome, 1), _).
 test(error_during_a_step) :-
     goes(( catch(member(X, [1,0]), _, true), X =:= 0, atom_length(_, _) ),
          Program),
