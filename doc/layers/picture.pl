@@ -28,6 +28,8 @@ colour('kernel/agent',     '#fdf3c8').
 colour('kernel/travel',    '#f9e2ae').
 colour('kernel/lifecycle', '#fbd9b5').
 colour('kernel/vocabulary',  '#f6cfc7').
+colour(language,   '#c3d7ee').
+colour('language/chunks',   '#c3d7ee').
 colour(network,   '#fbe3d0').
 colour(tools,    '#eeeeee').
 
