@@ -344,7 +344,7 @@ test(held_agents_can_be_ended) :-
               agent_dispose(A),
               agent_join(A, disposed, 1) ), _).
 test(agent_that_ends_itself_is_not_held, Outcome == disposed) :-
-    goes(( self(Self), agent_dispose(Self), sleep(100) ), Program),
+    goes(( self(Self), agent_dispose(Self), receive(_) ), Program),
     stepped([(:- use_module(library(typhon)))|Program], 4, A,
             agent_join(A, Outcome, 1), _).
 test(error_during_a_step) :-
