@@ -4,7 +4,6 @@
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2, nth1/3]).
-:- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(index, [index_problem/1]).
 :- use_module(kinds, [kinds_problem/1]).
 :- use_module(loaded, [loaded_problem/1]).
@@ -50,9 +49,9 @@ problem(past_interface(File, Module, PI)) :-
     PI \= _/0,                          % settings are named like this
     layer_file(File, _),
     \+ module_of(File, Module),
-    module_of(Module, Module),
-    layer_file(Module, _),
-    \+ hook(Module, PI).
+    module_of(Owner, Module),
+    layer_file(Owner, _),
+    \+ may_be_called(Owner, Module, PI).
 problem(no_such_predicate(File, Module, PI)) :-
     reaches(File, Module, PI),
     PI \= _/0,
@@ -231,15 +230,21 @@ is_option(Layer) :-
     atom_concat('options/', Option, Layer),
     Option \== keys.
 
-%   A hook is declared multifile by the module that calls it.
+%   may_be_called(+File, +Module, +PI) is semidet: other modules may call
+%   Module:PI, which File defines, or which Module inherits from `system`.
 
-hook(Module, Name/Arity) :-
-    read_file_to_string(Module, Text, []),
-    format(string(Declared), "~w/~w", [Name, Arity]),
-    once(sub_string(Text, M, _, _, "multifile")),
-    sub_string(Text, B, _, _, Declared),
-    B > M,
+may_be_called(File, _, PI) :-
+    export(File, PI),
     !.
+may_be_called(File, _, PI) :-
+    publishes(File, PI),
+    !.
+may_be_called(File, Module, PI) :-
+    ( PI = (//)/2 ; declares(File, Module:PI) ),
+    !.
+may_be_called(_, _, Name/Arity) :-
+    functor(Head, Name, Arity),
+    predicate_property(system:Head, defined).
 
 reaches_by_import(From, To) :-
     reaches_by_import(From, To, [From]).

@@ -9,6 +9,7 @@
             mentions/2,         % ?File, ?Name
             reaches/3,          % ?File, ?Module, ?PI
             declares/2,         % ?File, ?Hook
+            publishes/2,        % ?File, ?PI
             stores/2,           % ?File, ?Table
             defines/2,          % ?File, ?Hook
             hook_clause/2,      % ?File, ?Head
@@ -50,6 +51,7 @@
     mentions/2,                 % File, Name: in clauses and directives
     reaches/3,                  % File, Module, PI: Module:Goal in a clause
     declares/2,                 % File, Module:PI: multifile
+    publishes/2,                % File, PI: public
     stores/2,                   % File, Module:PI: dynamic or thread_local
     defines/2,                  % File, Module:PI: a clause for that module
     hook_clause/2,              % File, Module:Head: that clause
@@ -199,6 +201,9 @@ note_directive(multifile(PIs), File) :-
     module_of(File, Module),
     forall(( comma_member(PI, PIs), strip_module(Module:PI, M, Name) ),
            note_declared(File, M, Name)).
+note_directive(public(PIs), File) :-
+    !,
+    forall(comma_member(PI, PIs), assertz(publishes(File, PI))).
 note_directive(Storage, File) :-
     (   Storage = dynamic(PIs)
     ;   Storage = thread_local(PIs)

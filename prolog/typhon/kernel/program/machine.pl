@@ -125,6 +125,10 @@ run([], _, _, exit).
 run([Goal|Goals], Context, Base, Out) :-
     step(Goal, Goals, Context, Base, Out).
 
+:- public                               % chunks call these
+    continue/4,
+    step/5.
+
 %!  continue(+Goals, +Context, +Base, -Out) is nondet.
 %
 %   As run/4, but goals that are the rest of a clause are run as the chunk that
