@@ -437,6 +437,23 @@ idler(Agent) :-
 
 %   The variable is unified before it is used.
 
+%   Time stands still until a caller waits.
+
+test(agents_that_have_not_run_yet_run_later, Outcomes == [done,done]) :-
+    with_file(File,
+        ( with_network(ring(3), [clock(virtual), seed(1)], N1,
+                       ( findall(A,
+                                 ( member(Host, [n1, n2]),
+                                   agent_create(clauses([(:- agent(a, [])),
+                                                         main]),
+                                                A, [host(Host)]) ),
+                                 As),
+                         network_save(N1, File) )),
+          with_loaded_network(File, _,
+                              findall(Outcome,
+                                      ( member(A, As),
+                                        agent_join(A, Outcome, 10) ),
+                                      Outcomes)) )).
 test(rule_in_the_state_of_an_agent, X == at(1)) :-
     Program = clauses([ (:- agent(a, [state([same/2])])),
                         (main :- receive(_-Y), same(Y, Z), leave(got(Z))) ]),
