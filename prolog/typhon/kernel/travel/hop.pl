@@ -88,13 +88,12 @@ agent; answers and taken_over/4 in the threads of the endpoint, which never wait
                 visitor_arrived/4 ]).
 
 :- multifile
-    sent_again/2,                       % Endpoint, Id: the image is sent again, because
-                                        % the receiver lacks the program and its proofs
+    sent_again/2,                       % Endpoint, Id: the image is sent again,
+                                        % as the receiver lacks the program and
+                                        % its proofs
     typhon_transfer:again/1,
     typhon_agents:thaw/1,
-    typhon_endpoint:handed_over/2,
-    result/2.                           % Result, Transfer: the agent is in transit;
-                                        % treat Result as the answer to its request
+    typhon_endpoint:handed_over/2.
 
 :- public settled/2.
 
@@ -232,13 +231,16 @@ again(Transfer) :-
                 *            ANSWERS           *
                 *******************************/
 
-typhon_hop:result(unsent, Transfer) :-
+%   result(+Result, +Transfer): the agent is in transit; treat Result as the
+%   answer to its request.
+
+result(unsent, Transfer) :-
     !,
     again(Transfer).
-typhon_hop:result(lost, Transfer) :-
+result(lost, Transfer) :-
     !,
     answered(Transfer, lost).
-typhon_hop:result(Answer, Transfer) :-
+result(Answer, Transfer) :-
     answered(Transfer, answer(Answer)).
 
 answered(Transfer, answer(Answer)) :-
