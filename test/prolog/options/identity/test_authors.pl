@@ -214,6 +214,7 @@ payloads_of(Authority, Alpha) :-
              carries(Carrier, Good, Host, Alpha, assertz(good(2)), Changed),
              assertion(Changed == refused(move_refused(Alpha, unsigned))) )),
     guards_on_the_way(Carrier, Good, Beta, Alpha),
+    attached_from_afar(Carrier, Authority),
     begins_with(Carrier, Good, arrived),
     begins_with(Carrier, Bad, refused(move_refused(Alpha, unsigned))),
     on_the_spot(Carrier, Good, Bad, Alpha).
@@ -246,6 +247,17 @@ guards_on_the_way(Carrier, Good, Beta, Alpha) :-
     wait_until(carried(Agent, Alpha, Came), 20),
     assertion(Came == arrived),
     host_stop(guarding).
+
+%   This process neither signs nor reads the payload: its signature comes with
+%   the order.
+
+attached_from_afar(Carrier, Authority) :-
+    payload(Authority, far, Far),
+    agent_create(Carrier, Agent, [host(alpha)]),
+    project_file('app/typhon/keys.pl', Keys),
+    peer_do(beta, ( use_module(Keys, [keys_sign_file/3]),
+                    keys_sign_file(Far, alice, Authority),
+                    payload_attach(Agent, Far) )).
 
 begins_with(Carrier, Payload, Expected) :-
     catch(( agent_create(Carrier, _, [host(alpha), payloads([Payload])]),
