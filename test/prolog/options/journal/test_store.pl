@@ -1,6 +1,7 @@
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/failing_disk').
 :- use_module('../../../lib/stores').
+:- use_module('../../../lib/texts', [message_text/2]).
 :- use_module(library(plunit)).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(apply), [maplist/2]).
@@ -141,6 +142,7 @@ full(Dir) :-
                  commit([a-l-0-List]),
                  items(a, [k-0-first, l-0-List]) )),
     Full == resource_error(journal_space),
+    message_text(error(Full, _), "There is no space left for the journal\n"),
     Items == [k-0-first].
 
 %   Each commit is that of an item; a process reports its results as text.
