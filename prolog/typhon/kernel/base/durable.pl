@@ -15,6 +15,7 @@
             durable_end/0,
             durable_on/0,
             durable_closed/0,
+            durable_restores/0,
             durable_number/1,           % -N
             durable_key/2,              % +Key, +N
             durable_put/4,              % +Kind, +Key, +N, +Term
@@ -278,6 +279,14 @@ durable_end :-
 %
 %   Between durable_close/0 and durable_end/0.
 
+%!  durable_restores is semidet.
+%
+%   A store is open, and its items are being restored: no change is queued yet.
+
+durable_restores :-
+    \+ durable_on,
+    durable_opened(_).
+
                 /*******************************
                 *            CHANGES           *
                 *******************************/
@@ -385,18 +394,14 @@ sync_changes :-
 %   were dropped when the store has ended meanwhile.
 
 sync_after(Goal) :-
-    durable_on,
-    !,
     nb_setval(typhon_changes_dropped, none),
-    once(Goal),
+    once(Goal),                         % a store may open or close meanwhile
     (   durable_on
     ->  sync
     ;   nb_getval(typhon_changes_dropped, none)
     ->  true
     ;   must_keep
     ).
-sync_after(Goal) :-
-    once(Goal).
 
 %!  commit_changes is det.
 %

@@ -20,7 +20,7 @@
 :- use_module('../base/own_thread',
               [ in_own_thread/1, own_thread_start/0, own_thread_stop/0,
                 stop_steps/1 ]).
-:- use_module('../base/durable', [durable_end/0]).
+:- use_module('../base/durable', [durable_end/0, durable_restores/0]).
 :- use_module('../program', [code_clear/0]).
 :- use_module('../wire',
               [ endpoint_address/1, endpoint_call/5, endpoint_listen/2,
@@ -206,7 +206,10 @@ unreachable(Endpoint, Host) :-
 %   guests, it has one while Goal runs.  While hosts start or stop this waits.
 
 as_guest(Goal) :-
-    ( no_guest ; own_thread ),
+    (   no_guest,
+        \+ durable_restores
+    ;   own_thread
+    ),
     !,
     once(Goal).
 as_guest(Goal) :-

@@ -35,7 +35,7 @@ other processes order.
                 make_life/5, no_result_facts/2, not_carried/2,
                 origin_inherited/3, origin_passed/4, payload_marks/2,
                 with_agent/2 ]).
-:- use_module('../base/durable', [sync_changes/0, unit_of_work/1]).
+:- use_module('../base/durable', [sync_after/1, unit_of_work/1]).
 :- use_module('../base/names', [must_be_name/2]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../host',
@@ -321,8 +321,8 @@ agent_begin(Options, Name, Start, Agent) :-
 %   gate/4.
 
 agent_begins(Host, Name, Start, From, Answer) :-
-    unit_of_work(started(Host, Name, Start, From, none, _, Answer)),
-    sync_changes.
+    sync_after(unit_of_work(started(Host, Name, Start, From, none, _,
+                                    Answer))).
 
 %   begins_at_once(@Start): no goal of the agent is for the hook at_birth/2,
 %   which may load code. Start may come from a peer.

@@ -12,7 +12,7 @@
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(option), [option/2]).
 :- use_module('../base/options', [check_options/2]).
-:- use_module('../base/durable', [sync_after/1]).
+:- use_module('../base/durable', [durable_restores/0, sync_after/1]).
 :- use_module('../program', [payload_load/2]).
 :- use_module('../host',
               [address_parts/3, as_guest/1, context_now/2, host_address/2]).
@@ -172,7 +172,8 @@ agent_send(at(Agent, Host), Message) :-
     sync_after(as_guest(post_via(Id, Endpoint, From, Message))).
 agent_send(Agent, Message) :-
     (   atom(Agent),
-        agent(Agent, _, _, _, _)        % then this process is not a guest
+        agent(Agent, _, _, _, _),       % then this process is not a guest
+        \+ durable_restores
     ->  sender(From),
         sync_after(post(Agent, From, Message))
     ;   agent_named(Agent, Id),

@@ -9,7 +9,7 @@
 :- use_module(library(error), [domain_error/2, must_be/2, permission_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2]).
-:- use_module('../../kernel/base/durable', [sync_changes/0]).
+:- use_module('../../kernel/base/durable', [sync_after/1]).
 :- use_module('../../kernel/base/options',
               [check_name/2, check_option/2, check_options/2]).
 :- use_module('../../kernel/wire', [endpoint_reply/2]).
@@ -216,8 +216,7 @@ change_host(Host, Option) :-
     change_at(Where, Option).
 
 change_at(local(Name), Option) :-
-    with_mutex(typhon_hosting, change(Option, Name)),
-    sync_changes.
+    sync_after(with_mutex(typhon_hosting, change(Option, Name))).
 change_at(remote(Address, Name, _), Option) :-
     remote(Address, typhon_administration:host_change(Name, Option)).
 
