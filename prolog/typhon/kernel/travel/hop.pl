@@ -165,33 +165,43 @@ freeze_and_send(Transfer, Held, Mail, Since, Image) :-
 %   send(+Transfer, +Image): if the image cannot be sent, for example because
 %   its frame is too long, the agent stays.
 
-send(Transfer, Image0) :-
-    arg(2, Transfer, dest(Address, Name, Endpoint)),
-    image_hash(Image0, Hash),
-    catch(( (   parts(departs, _, _),
-                arg(1, Transfer, Id),
-                agent(Id, Host, _, _, _) % else it was ended meanwhile
-            ->  image_amended(departs, Host, Address, Image0, Image),
-                program_sent(Endpoint, Hash, Sent),
-                transfer_traveller(Transfer, Agent, _),
-                amended(papers, Host, program(Agent, Hash, Endpoint), Sent,
-                        Program)
-            ;   Image = Image0,
-                program_sent(Endpoint, Hash, Program)
-            ),
-            (   durable_on
-            ->  commits_must_succeed,
-                hop_request(Transfer, Name, Image, Program, Request),
-                endpoint_request(Endpoint, hop, Request, answered(Transfer)),
-                crash_point(after_send)
-            ;   handed(Endpoint, hop(Name, Image, Program), Transfer)
-            ->  true
-            ;   endpoint_request(Endpoint, hop, hop(Name, Image, Program),
-                                 answered(Transfer))
-            )
-          ),
+send(Transfer, Image) :-
+    catch(send_image(Transfer, Image),
           error(Formal, _),
           not_sent(Formal, Transfer)).
+
+send_image(Transfer, Image0) :-
+    arg(2, Transfer, dest(_, Name, Endpoint)),
+    amended_image(Transfer, Image0, Image, Program),
+    (   durable_on
+    ->  commits_must_succeed,
+        hop_request(Transfer, Name, Image, Program, Request),
+        endpoint_request(Endpoint, hop, Request, answered(Transfer)),
+        crash_point(after_send)
+    ;   handed(Endpoint, hop(Name, Image, Program), Transfer)
+    ->  true
+    ;   endpoint_request(Endpoint, hop, hop(Name, Image, Program),
+                         answered(Transfer))
+    ).
+
+%   amended_image(+Transfer, +Image0, -Image, -Program): what is sent; options
+%   of the host add to it.
+
+amended_image(Transfer, Image0, Image, Program) :-
+    parts(departs, _, _),
+    arg(1, Transfer, Id),
+    agent(Id, Host, _, _, _),           % else it was ended meanwhile
+    !,
+    arg(2, Transfer, dest(Address, _, Endpoint)),
+    image_amended(departs, Host, Address, Image0, Image),
+    image_hash(Image0, Hash),
+    program_sent(Endpoint, Hash, Sent),
+    transfer_traveller(Transfer, Agent, _),
+    amended(papers, Host, program(Agent, Hash, Endpoint), Sent, Program).
+amended_image(Transfer, Image, Image, Program) :-
+    arg(2, Transfer, dest(_, _, Endpoint)),
+    image_hash(Image, Hash),
+    program_sent(Endpoint, Hash, Program).
 
 %   Without a journal the hop needs no answer: settlement of its frame means
 %   that it was accepted.  Fails if there is no connection.
