@@ -51,7 +51,7 @@ use(agent_ends([(main :- sleep(0), X = y, Z is X+1, result(Z))]), _).
 use(agent_ends([(main :- sleep(0), fail), (on_message(_, _))]), _).
 use(agent_ends([(main :- attach(clauses([(:- payload(p, [])), q(1)])), q(X),
                          result(X))]), _).
-use(agent_ends([(main :- send(mqtt, x), send(nobody, x), sleep(0))]), _).
+use(agent_ends([(main :- send(mqtt, x), send(unknown, x), sleep(0))]), _).
 use(agent_ends([(main :- next_host(random, H), move(H))]), _).
 use(agent_ends([(main :- clone(_), offer(service), sleep(0))]), _).
 use(remote(a, true), _).

@@ -13,8 +13,9 @@
 In SWI-Prolog 9.0.4 a thread that runs a cleanup handler, sig_atomic/1 or a
 directive leaves its signals pending, also those of garbage collection. If one
 is pending, a wait with a deadline that expires does not end: it spins for ever,
-even with timeout(0). Programs often stop hosts in cleanup handlers, and stopping has to
-wait. So code that stops something does it in a thread of its own.
+even with timeout(0). Programs often stop hosts in cleanup handlers, and
+stopping has to wait. So code that stops something does it in a thread of its
+own.
 
 Stopping must also be possible when no more threads can be created: so a helper
 thread is ready while hosts run.
