@@ -66,7 +66,8 @@ for a connection; one_letter/2 is pure.
            "Messages that wait, in all, for agents that cannot be reached now").
 
 :- dynamic
-    waits/4.                            % Id, Queue, Tries, State: idle or tried
+    waits/4.                            % Id, Queue, Tries, State: `idle`, or
+                                        % tried(Messages)
 
 :- multifile
     typhon_durable:act/3,
@@ -531,34 +532,33 @@ backlog(Id) :-
 %   messages wait as the setting `messages` allows, they are lost.
 
 backlog_add(Id, Letter) :-
-    (   has_space(Letter)
+    (   counted_in(Letter)
     ->  durable_number(N),
         durable_put(wait, Id, N, Letter),
-        add(Id, Letter)
+        put(Id, Letter)
     ;   Letter = letter(Mail, _),
         mail_lost(resource_error(backlog), Id, Mail)
     ).
 
-has_space(Letter) :-
+%   The flag has the number of messages that wait, those that are being tried
+%   included.
+
+counted_in(Letter) :-
     setting(typhon_backlog:messages, Most),
-    flag(typhon_mail, Count, Count),
     message_count([Letter], More),
-    Count+More =< Most.
-
-%   put(+Queue, +Letter), emptied(+Queue, -Letters:list): the flag has the
-%   number of messages in all queues.
-
-put(Queue, Letter) :-
-    counted([Letter], 1),
-    thread_send_message(Queue, Letter).
-
-emptied(Queue, Letters) :-
-    fifo_empty(Queue, Letters),
-    counted(Letters, -1).
+    flag(typhon_mail, Count, Count+More),
+    (   Count+More =< Most
+    ->  true
+    ;   flag(typhon_mail, Now, Now-More),
+        fail
+    ).
 
 counted(Letters, Sign) :-
     message_count(Letters, Count),
-    flag(typhon_mail, All, All+Sign*Count).
+    count(Sign*Count).
+
+count(More) :-
+    flag(typhon_mail, All, All+More).
 
 message_count(Letters, Count) :-
     aggregate_all(sum(N), ( member(letter(Mail, _), Letters), length(Mail, N) ),
@@ -579,21 +579,26 @@ letter_item(Id, Letter) :-
 
 backlog_item(Id, Tries, Letters) :-
     waits(Id, Queue, Tries, _),
-    emptied(Queue, Letters),
-    maplist(put(Queue), Letters).
+    fifo_empty(Queue, Letters),
+    maplist(thread_send_message(Queue), Letters).
 
 backlog_restore(Id, Tries, Letters) :-
     message_queue_create(Queue),
-    maplist(put(Queue), Letters),
+    counted(Letters, 1),
+    maplist(thread_send_message(Queue), Letters),
     assertz(waits(Id, Queue, Tries, idle)).
 
 add(Id, Letter) :-
+    counted([Letter], 1),
+    put(Id, Letter).
+
+put(Id, Letter) :-
     (   waits(Id, Queue, _, _)
     ->  true
     ;   message_queue_create(Queue),
         assertz(waits(Id, Queue, 0, idle))
     ),
-    put(Queue, Letter).
+    thread_send_message(Queue, Letter).
 
 %   backlog_begin(+Id, -Letters:list, -Tries) is semidet.
 %
@@ -602,21 +607,22 @@ add(Id, Letter) :-
 backlog_begin(Id, Letters, Tries) :-
     retract(waits(Id, Queue, Tries, idle)),
     !,
-    emptied(Queue, Letters),
-    assertz(waits(Id, Queue, Tries, tried)).
+    fifo_empty(Queue, Letters),
+    message_count(Letters, Count),
+    assertz(waits(Id, Queue, Tries, tried(Count))).
 
 %   backlog_again(+Id, +Letters:list, +Tries) is det.
 %
 %   Put Letters back, before those that have come meanwhile.
 
 backlog_again(Id, Letters, Tries) :-
-    retract(waits(Id, Queue, _, tried)),
+    retract(waits(Id, Queue, _, tried(_))),
     !,
-    emptied(Queue, Newer),
+    fifo_empty(Queue, Newer),
     append(Letters, Newer, All),
     durable_drop_all(wait, Id),
     maplist(note_letter(Id), All),
-    maplist(put(Queue), All),
+    maplist(thread_send_message(Queue), All),
     assertz(waits(Id, Queue, Tries, idle)).
 
 note_letter(Id, Letter) :-
@@ -628,8 +634,9 @@ note_letter(Id, Letter) :-
 %   The letters that were taken out have been sent.  Fails if others wait now.
 
 backlog_done(Id) :-
-    retract(waits(Id, Queue, _, tried)),
+    retract(waits(Id, Queue, _, tried(Count))),
     !,
+    count(-Count),
     (   thread_peek_message(Queue, _)
     ->  assertz(waits(Id, Queue, 0, idle)),
         fail
@@ -641,7 +648,7 @@ backlog_done(Id) :-
 %   A thread is trying letters.
 
 post_tried :-
-    waits(_, _, _, tried),
+    waits(_, _, _, tried(_)),
     !.
 
 %   backlog_leaves(+Id) is det.
@@ -651,10 +658,10 @@ post_tried :-
 
 backlog_leaves(Id) :-
     durable_drop_all(wait, Id),
-    (   waits(Id, Queue, _, tried)
-    ->  emptied(Queue, Newer),
+    (   waits(Id, Queue, _, tried(_))
+    ->  fifo_empty(Queue, Newer),
         maplist(note_letter(Id), Newer),
-        maplist(put(Queue), Newer)
+        maplist(thread_send_message(Queue), Newer)
     ;   true
     ).
 
@@ -663,7 +670,8 @@ backlog_leaves(Id) :-
 
 backlog_all(Id, Letters) :-
     (   retract(waits(Id, Queue, _, idle))
-    ->  emptied(Queue, Letters),
+    ->  fifo_empty(Queue, Letters),
+        counted(Letters, -1),
         durable_drop_all(wait, Id),
         message_queue_destroy(Queue)
     ;   Letters = []
@@ -672,8 +680,10 @@ backlog_all(Id, Letters) :-
 %   The scheduler has stopped, so no thread can try them.
 
 typhon_runtime:ending(after) :-
-    retract(waits(_, Queue, _, _)),
-    emptied(Queue, _),
+    retract(waits(_, Queue, _, State)),
+    fifo_empty(Queue, Letters),
+    counted(Letters, -1),
+    ( State = tried(Count) -> count(-Count) ; true ),
     message_queue_destroy(Queue),
     fail.
 

@@ -251,7 +251,8 @@ test(hint_of_an_agent, true(Ns == [1])) :-
 test(messages_beyond_the_bound_are_lost, Waiting-Left == 50-0) :-
     with_settings([typhon_backlog:messages=50],
         capturing(with_hosts([alpha],
-                             ( forall(between(1, 200, N), unknown_gets(N)),
+                             ( concurrent_forall(between(1, 200, N),
+                                                 unknown_gets(N), [threads(4)]),
                                flag(typhon_mail, Waiting, Waiting) )), Ms)),
     flag(typhon_mail, Left, Left),
     findall(N, ( member(_-typhon(M), Ms), lost_in(M, N) ), Ns),
