@@ -8,7 +8,7 @@
 :- use_module(library(lists), [memberchk/2]).
 :- use_module(compiling, [compiling/1]).
 :- use_module(index, [part_file/2, part_joins/3, part_setting/6]).
-:- use_module(own_thread, [in_own_thread/1]).
+:- use_module(own_thread, [uncounted/1]).
 
 /** <module> Code that is loaded on first use
 
@@ -102,8 +102,7 @@ load(Part) :-
 user:prolog_load_file(Module:File, Options) :-
     \+ memberchk(typhon(later), Options),
     typhon_on_demand:is_later(File),
-    in_own_thread(compiling(load_files(Module:File,
-                                       [typhon(later)|Options]))).
+    uncounted(compiling(load_files(Module:File, [typhon(later)|Options]))).
 
 :- public is_later/1.
 

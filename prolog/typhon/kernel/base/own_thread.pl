@@ -1,5 +1,6 @@
 :- module(typhon_own_thread,
           [ in_own_thread/1,            % :Goal
+            uncounted/1,                % :Goal
             own_thread_start/0,
             own_thread_stop/0,
             stop_steps/1,                       % :Steps
@@ -34,6 +35,7 @@ goals directly: so the helper never waits for itself.
 
 :- meta_predicate
     in_own_thread(0),
+    uncounted(0),
     stop_steps(:).
 
 :- dynamic
@@ -46,9 +48,7 @@ goals directly: so the helper never waits for itself.
 %   caller is interrupted while waiting, Goal runs on.
 
 in_own_thread(Goal) :-
-    (   nb_current(typhon_own_thread, true)
-    ;   current_prolog_flag(threads, false)
-    ),
+    in_place,
     !,
     once(Goal).
 in_own_thread(Goal) :-
@@ -69,9 +69,49 @@ in_own_thread(Goal) :-
 in_own_thread(Goal) :-
     once(Goal).
 
+%   in_place is semidet: called from such a thread, or there are no threads.
+
+in_place :-
+    nb_current(typhon_own_thread, true),
+    !.
+in_place :-
+    current_prolog_flag(threads, false).
+
 alone(Goal) :-
     nb_setval(typhon_own_thread, true),
     call(Goal).
+
+%!  uncounted(:Goal) is semidet.
+%
+%   As in_own_thread/1, and the inferences of Goal do not count for the limit of
+%   the caller: from version 10, thread_join/2 adds those of the thread.
+
+uncounted(Goal) :-
+    in_place,
+    !,
+    once(Goal).
+uncounted(Goal) :-
+    setup_call_cleanup(
+        message_queue_create(Queue),
+        ( ask_thread(Goal, Queue),
+          thread_get_message(Queue, Answer) ),
+        message_queue_destroy(Queue)),
+    conclude(Answer).
+
+ask_thread(Goal, Queue) :-
+    catch(thread_create(typhon_own_thread:answered(alone(Goal), Queue), _,
+                        [detached(true)]),
+          error(resource_error(_), _), fail),
+    !.
+ask_thread(Goal, Queue) :-
+    answered(Goal, Queue).
+
+answered(Goal, Queue) :-
+    (   catch(Goal, Error, true)
+    ->  ( var(Error) -> Answer = true ; Answer = exception(Error) )
+    ;   Answer = false
+    ),
+    catch(thread_send_message(Queue, Answer), error(_, _), true).
 
 conclude(Status) :-
     (   Status = exception(Error)

@@ -28,7 +28,7 @@
               [existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/on_demand', [on_demand_load/2, on_demand_missing/2]).
-:- use_module('../base/own_thread', [in_own_thread/1]).
+:- use_module('../base/own_thread', [uncounted/1]).
 :- use_module('../base/reports', [report/4]).
 :- use_module('../program', [vocabulary/1]).
 :- use_module('../wire', [mobile_term/1]).
@@ -165,7 +165,7 @@ send(External, Message), compound(External) =>
     ;   true
     ),
     (   on_demand_missing(recipient, external)
-    ->  in_own_thread(on_demand_load(recipient, external))  % outside the turn
+    ->  uncounted(on_demand_load(recipient, external))  % outside the turn
     ;   true                                    % of the agent, and its quotas
     ),
     posts_external(Host, External, Id, Message),
