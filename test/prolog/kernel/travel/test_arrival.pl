@@ -50,11 +50,11 @@ test(hop_that_came_before_is_recognised, true(Loads == [1,1,0])) :-
                  sent(First, accepted),  % with the program
                  arrived(First),
                  arg(1, First, A),
-                 agent_dispose(A),
+                 disposed(A),
                  image([], Image),
                  arg(1, Image, B),
                  findall(Load,
-                         ( member(Goal, [true, true, agent_dispose(B)]),
+                         ( member(Goal, [true, true, disposed(B)]),
                            call(Goal),
                            handed(Image),
                            host_property(alpha, load(Load)) ),
@@ -65,7 +65,7 @@ test(hop_before_the_last_known_one_is_recognised_at_home, Load == 0) :-
                  sent(First, accepted),
                  arrived(First),
                  arg(1, First, A),
-                 agent_dispose(A),
+                 disposed(A),
                  address(alpha, Home),
                  atom_concat('x.1.home@', Home, Id),
                  typhon_whereabouts:agent_born(Id, Home),
@@ -179,6 +179,10 @@ arrived(Image) :-
     wait_until(agent_property(Id, state(resident)), 5),
     agent_property(Id, facts([fact(1)])),
     host_property(alpha, load(1)).
+
+disposed(Id) :-
+    agent_dispose(Id),
+    wait_until(host_property(alpha, load(0)), 10).
 
 alone :-
     host_property(alpha, load(0)),
