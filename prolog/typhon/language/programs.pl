@@ -74,7 +74,7 @@ its exports at the time of reading.
     problem_at_goal/2,                  % +Problem0, -Problem: with the line of its goal
     advice//1,                          % +Advice: parts of the text, none where the
                                         % error says enough
-    was_read/2,                         % File, Hash: of the program that was read
+    was_read/2,                         % File, Hash: a program is used from its file
     read_anew/4,                        % File or hash of clauses, Hash, Sources,
                                         % Doubtful, see program_read/7
     unknown/3.                          % Hash, State, :Offered: an agent of this
@@ -605,18 +605,22 @@ load(clauses(Terms), Loaded) :-
 load(Spec, Loaded) :-                   % invalid clauses: an error follows
     read_program(Spec, Loaded, _, _).
 
-load(Key, _, Loaded) :-
-    loaded(Key, Sources, Loaded0),
-    source_same(Sources),
-    !,
-    Loaded = Loaded0.
 load(Key, Spec, Loaded) :-
-    read_program(Spec, Loaded, Sources, Doubtful),
+    known(Key, Spec, Loaded),
     arg(3, Loaded, Hash),
     (   atom(Spec)
     ->  forall(was_read(Spec, Hash), true)
     ;   true
-    ),
+    ).
+
+known(Key, _, Loaded) :-
+    loaded(Key, Sources, Loaded0),
+    source_same(Sources),
+    !,
+    Loaded = Loaded0.
+known(Key, Spec, Loaded) :-
+    read_program(Spec, Loaded, Sources, Doubtful),
+    arg(3, Loaded, Hash),
     debug(typhon(program), 'read ~w', [Key]),
     on_demand_load(program, read),
     forall(read_anew(Key, Hash, Sources, Doubtful), true),

@@ -134,11 +134,30 @@ resident(Authority, Name, File) :-
 test(signature_beside_the_file_is_read, Outcome == true) :-
     with_choosy_host([alpha, beta], [alice], Authority, _,
         ( resident(Authority, read, File),
-          project_file('app/typhon/keys', Keys),
-          peer_do(beta, ( use_module(Keys, []),
-                          typhon_app_keys:keys_sign_file(File, alice,
-                                                     Authority) )),
+          beta_signs(File, Authority),
           outcome(agent_create(File, _, [host(alpha)]), Outcome) )).
+
+test(signature_that_comes_after_the_file_was_read_is_read,
+     Outcomes == [false,true]) :-
+    with_choosy_host([alpha, beta], [alice], Authority, _,
+        ( resident(Authority, later, File),
+          get_time(Now),
+          Before is Now-60,
+          set_time_file(File, _, [modified(Before)]),
+          findall(Outcome,
+                  ( member(Goal, [true, beta_signs(File, Authority)]),
+                    call(Goal),
+                    ( catch(agent_create(File, _, [host(alpha)]),
+                            error(move_refused(_, _), _), fail)
+                    -> Outcome = true
+                    ;  Outcome = false
+                    ) ),
+                  Outcomes) )).
+
+beta_signs(File, Authority) :-
+    project_file('app/typhon/keys', Keys),
+    peer_do(beta, ( use_module(Keys, []),
+                    typhon_app_keys:keys_sign_file(File, alice, Authority) )).
 
 %   The owner of an agent is the author, not the process that has sent it.
 
