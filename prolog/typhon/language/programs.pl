@@ -74,7 +74,7 @@ its exports at the time of reading.
     problem_at_goal/2,                  % +Problem0, -Problem: with the line of its goal
     advice//1,                          % +Advice: parts of the text, none where the
                                         % error says enough
-    was_read/2,                         % File, Hash: a program is used from its file
+    program_used/2,                     % File, Hash: a program is used from its file
     read_anew/4,                        % File or hash of clauses, Hash, Sources,
                                         % Doubtful, see program_read/7
     unknown/3.                          % Hash, State, :Offered: an agent of this
@@ -609,7 +609,7 @@ load(Key, Spec, Loaded) :-
     known(Key, Spec, Loaded),
     arg(3, Loaded, Hash),
     (   atom(Spec)
-    ->  forall(was_read(Spec, Hash), true)
+    ->  forall(program_used(Spec, Hash), true)
     ;   true
     ).
 

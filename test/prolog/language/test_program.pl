@@ -402,9 +402,9 @@ remembers(File, Fact) :-
     loads(File, Fact).
 
 :- dynamic was_read/1.
-:- multifile typhon_programs:was_read/2.
+:- multifile typhon_programs:read_anew/4.
 
-typhon_programs:was_read(File, _) :-
+typhon_programs:read_anew(File, _, _, _) :-
     assertz(test_program:was_read(File)).
 
 %   set_age(+Seconds, +File): File was changed Seconds ago.

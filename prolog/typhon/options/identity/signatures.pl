@@ -35,7 +35,7 @@ put into them.
     typhon_code:extra/2,
     typhon_code:extra_comes/2,
     typhon_code:wrapped/3,
-    typhon_programs:was_read/2,
+    typhon_programs:program_used/2,
     typhon_programs:payload_was_read/2.
 
 :- dynamic
@@ -148,7 +148,7 @@ typhon_code:extra(Hash, signature(Signature)) :-
 typhon_code:extra_comes(signature(Signature), Hash) :-
     signature_keep(Hash, Signature).
 
-typhon_programs:was_read(File, Hash) :-
+typhon_programs:program_used(File, Hash) :-
     signature_read(File, Hash).
 
 typhon_programs:payload_was_read(Spec, Payload) :-
