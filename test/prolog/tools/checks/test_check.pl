@@ -96,7 +96,8 @@ severities(Kinds, File) :-
 payload_in(Found, File) :-
     write_program([':- payload(a, [provides([p/1])]).',
                    'p(X) :- r(X, Y).',
-                   'r(_, L) :- member(X, L), move(X), assertz(m(X)), fail.'],
+                   'r(_, L) :- member(X, L), move(X), assertz(m(X)), fail.',
+                   ':- discontiguous t/0.', 't.', 'u.', 't.'],
                   File),
     found_in(Found, File).
 
