@@ -662,6 +662,9 @@ test(mechanism, Done == ["[]"]) :-
                  fails(Base, _{ do:"mechanism", mechanism:"../sync",
                                 predicate:"halt", arguments:[] },
                        ["mechanism"]),
+                 fails(Base, _{ do:"mechanism", mechanism:"sync",
+                                predicate:"sequence_start", arguments:[5] },
+                       ["text", "5"]),
                  agents_are_gone )).
 
 agents_are_gone :-
