@@ -265,6 +265,9 @@ test(slow_requests_are_ended) :-
     with_settings([typhon_page_reception:request_seconds=1],
         page(Base, forall(member(Head, ['GET /', body(100 000)]),
                           ends_while_dripping(Base, Head)))).
+test(body_that_ends_early_is_refused) :-
+    page(Base, cut_short(Base, Answer)),
+    sub_string(Answer, _, _, _, "Http length").
 
 test(long_headers_are_refused) :-
     page(Base,
@@ -285,6 +288,17 @@ ends_while_dripping(Base, Head) :-
           thread_send_message(Drip, stop),
           thread_join(Drip) ),
         close(Pair, [force(true)])).
+
+%   The answer to a request whose body ends early.
+
+cut_short(Base, Answer) :-
+    head_text(body(100), Base, Text),
+    connected(Base, Pair),
+    stream_pair(Pair, In, Out),
+    setup_call_cleanup(
+        true,
+        ( write(Out, Text), close(Out), read_string(In, _, Answer) ),
+        close(In, [force(true)])).
 
 head_text(body(Length), Base, Text) :-
     !,
