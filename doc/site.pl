@@ -4,7 +4,7 @@
 
     swipl doc/site.pl -- DIR
 
-makes it in DIR by MkDocs: README.md, the pages of doc/ in the order in which
+makes it in DIR by MkDocs: README.md, the documents in the order in which
 doc/contents.md names them, a reference of all public predicates, and the
 files that pages point to. It can be read, and searched, without a server.
 Says which links are broken, and fails if any are.
@@ -14,6 +14,7 @@ Says which links are broken, and fails if any are.
 
 :- use_module('../app/typhon/arguments', [arguments/3]).
 :- use_module(site/reference).          % first, see there
+:- use_module(site/documents, [document/2]).
 :- use_module(site/markdown).
 :- use_module(library(filesex),
               [ copy_file/2, delete_directory_and_contents/1,
@@ -62,8 +63,8 @@ main(Argv) :-
 sources(Work) :-
     directory_file_path(Work, docs, Docs),
     reference(Public, Reference),
-    document(Docs, Public, 'predicates.md', Reference),
-    findall(File, document_file(File), Files),
+    page(Docs, Public, 'predicates.md', Reference),
+    findall(File, document('.', File), Files),
     forall(member(File, Files), page(Docs, Public, File)),
     findall(Path, along(Files, Path), Paths0),
     sort(Paths0, Paths),
@@ -74,17 +75,11 @@ sources(Work) :-
              copy_file(From, To) )),
     settings(Work, Docs).
 
-document_file(File) :-
-    member(Pattern, ['README.md', 'SECURITY.md', 'CHANGELOG.md', 'doc/*.md',
-                     'doc/course/*.md']),
-    expand_file_name(Pattern, Files),
-    member(File, Files).
-
 page(Docs, Public, File) :-
     read_file_to_string(File, Text, [encoding(utf8)]),
-    document(Docs, Public, File, Text).
+    page(Docs, Public, File, Text).
 
-document(Docs, Public, File, Text) :-
+page(Docs, Public, File, Text) :-
     site_markdown(File, Public, Text, Markdown),
     write_file(Docs, File, Markdown).
 

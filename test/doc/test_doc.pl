@@ -1,7 +1,6 @@
 :- module(test_doc, []).
 
-%   The code and the sessions in README.md, doc/*.md and doc/course/*.md are
-%   correct.
+%   The code and the sessions in the documents are correct.
 %
 %   - A block ```prolog whose first line is `% name.pl` is a file. Agent
 %     programs and payloads must be without problems. Other ```prolog blocks
@@ -22,6 +21,7 @@
 :- use_module('../lib/texts', [write_file/2, file_lines/2]).
 :- use_module('../lib/transcript', [transcript_differences/4]).
 :- use_module('../../doc/pictures/studies', [study_picture/3]).
+:- use_module('../lib/documents', [document/1]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(filesex),
               [ directory_file_path/3, directory_member/3,
@@ -32,12 +32,6 @@
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/program),
               [payload_load/2, program_load/6]).
-
-document(File) :-
-    member(Pattern, ['README.md', 'doc/*.md', 'doc/course/*.md']),
-    project_file(Pattern, Absolute),
-    expand_file_name(Absolute, Files),
-    member(File, Files).
 
                 /*******************************
                 *            BLOCKS            *
@@ -356,9 +350,7 @@ about(Lines, Word) :-
 
 test(each_word_that_users_look_for_has_a_section,
      [forall(asked_for(Word)), true(Files = [_|_])]) :-
-    project_file('doc/*.md', Pattern),
-    expand_file_name(Pattern, All),
-    findall(File, ( member(File, All),
+    findall(File, ( document(File),
                     file_lines(File, Lines),
                     about(Lines, Word) ), Files).
 test(sessions_answer_as_shown,

@@ -1,5 +1,6 @@
 :- module(test_pictures, []).
 :- use_module('../lib/common').
+:- use_module('../lib/documents', [document/1]).
 
 :- needs([page]).
 
@@ -24,14 +25,8 @@ png_size(File, Width*Height) :-
 %   page-NAME.png as documents name them.
 
 shown(Names) :-
-    project_file('.', Root),
-    findall(File, ( member(Pattern, ['README.md', 'doc/*.md']),
-                    directory_file_path(Root, Pattern, Path),
-                    expand_file_name(Path, Files),
-                    member(File, Files) ),
-            Documents),
     findall(Name,
-            ( member(Document, Documents),
+            ( document(Document),
               read_file_to_string(Document, Text, [encoding(utf8)]),
               sub_string(Text, At, _, _, "img/page-"),
               Start is At + 4,

@@ -1,6 +1,6 @@
 :- module(test_shell, []).
 
-% The shell commands in README.md and doc/*.md run.
+% The shell commands in the documents run.
 %
 %   Commands are the lines of indented blocks that begin with a program, and
 %   what stands after `$ ` there. Those of one document run in turn, in one
@@ -11,6 +11,7 @@
 %   elsewhere/1.
 
 :- use_module('../lib/common').
+:- use_module('../lib/documents', [document/1]).
 :- use_module('../lib/quick_swipl', [quick_swipl/3]).
 :- use_module('../lib/texts', [write_file/2, file_lines/2]).
 :- use_module(library(apply), [foldl/4]).
@@ -26,12 +27,6 @@
 :- use_module(library(typhon)).
 
 :- needs([core, journal, openssl, 'page-tools']).
-
-document(File) :-
-    member(Pattern, ['README.md', 'doc/*.md']),
-    project_file(Pattern, Absolute),
-    expand_file_name(Absolute, Files),
-    member(File, Files).
 
                 /*******************************
                 *           COMMANDS           *
@@ -486,8 +481,11 @@ test(commands_run,
      [ forall(document_with_commands(File)), Failed == [] ]) :-
     with_tmp_dir(run_document(File, Failed)).
 
+%   test_course checks hand-ins as the course does.
+
 document_with_commands(File) :-
     document(File),
+    \+ sub_atom(File, _, _, _, '/doc/course/'),
     commands(File, [_|_]).
 
 test(all_names_in_one_pass,

@@ -5,11 +5,12 @@
 
 :- use_module('../lib/browser').
 :- use_module('../lib/common').
+:- use_module('../../doc/site/documents', [document/2]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex),
               [ delete_directory_and_contents/1, directory_file_path/3,
-                directory_member/3 ]).
+                directory_member/3, relative_file_name/3 ]).
 :- use_module(library(lists), [append/3, last/2, member/2, nth0/3, nth1/3]).
 :- use_module(library(plunit)).
 :- use_module(library(sgml), [load_html/3]).
@@ -57,12 +58,19 @@ navigation(Links) :-
                     \+ sub_atom(Link, 0, _, _, #) ), Links).
 
 document_page(Page) :-
-    project_file('doc/*.md', Pattern),
-    expand_file_name(Pattern, Files),
-    member(File, Files),
-    file_base_name(File, Base),
-    file_name_extension(Stem, md, Base),
-    file_name_extension(Stem, html, Page).
+    project_file('.', Root),
+    document(Root, Path),
+    file_name_extension(Stem0, md, Path),
+    index(Stem0, Stem),
+    file_name_extension(Stem, html, File),
+    relative_file_name(File, 'doc/file', Page).
+
+index(Stem0, Stem) :-
+    file_base_name(Stem0, 'README'),
+    !,
+    file_directory_name(Stem0, Dir),
+    directory_file_path(Dir, index, Stem).
+index(Stem, Stem).
 
                 /*******************************
                 *             LINKS            *
