@@ -2,6 +2,7 @@
           [ promise/5,                  % ?Name, ?Document, -Suites, -File,
                                         % -Edit
             promise_change/3,           % ?Name, -Change, -Suites
+            promising/2,                % +Name, -Document
             promise_problem/1,          % -Problem
             check_promises/0
           ]).
@@ -10,7 +11,8 @@
 
 A promise is a sentence of a document that users rely on. There it begins with
 the anchor `<a id="NAME"></a>`. For doc/agents.md, promises/agents.diff has a
-change of the product that takes it away, for each:
+change of the product that takes it away, for each; so has
+promises/UPGRADING.diff for UPGRADING.md:
 
     --- FILE
     @@ NAME: SUITE ...
@@ -46,8 +48,19 @@ promised(Document, Text) :-
     directory_member(Dir, Path, [extensions([diff])]),
     file_base_name(Path, Base),
     file_name_extension(Name, diff, Base),
-    format(atom(Document), 'doc/~w.md', [Name]),
+    promising(Name, Document),
     read_file_to_string(Path, Text, [encoding(utf8)]).
+
+%!  promising(+Name, -Document) is semidet.
+%
+%   Document is the one that is called Name, in doc/ or at the top of the tree.
+
+promising(Name, Document) :-
+    member(Form, ['doc/~w.md', '~w.md']),
+    format(atom(Document), Form, [Name]),
+    project_file(Document, File),
+    exists_file(File),
+    !.
 
 promise_in(Text, Name, Suites, File, Old-New) :-
     string_concat(Changes, "\n", Text),

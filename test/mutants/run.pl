@@ -25,7 +25,8 @@ drawn.
 :- use_module(coverage,
               [load_coverage/1, record_coverage/2, suites_of/3]).
 :- use_module(equivalent, [equivalent_change/2]).
-:- use_module('../promises', [promise/5, promise_change/3]).
+:- use_module('../promises',
+              [promise/5, promise_change/3, promising/2]).
 :- use_module('../lib/changed_files', [changed_files/1]).
 :- use_module('../lib/common', [project_file/2, with_tmp_dir/1]).
 :- use_module('../../app/typhon/arguments', [arguments/3]).
@@ -195,7 +196,7 @@ promise_of(Options, Name) :-
     (   option(documents(Names), Options)
     ->  atomic_list_concat(List, ',', Names),
         member(Base, List),
-        format(atom(Document), 'doc/~w.md', [Base])
+        promising(Base, Document)
     ;   true
     ),
     promise(Name, Document, _, _, _).
