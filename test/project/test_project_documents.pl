@@ -64,6 +64,20 @@ is_date(Date) :-
     catch(parse_time(Date, iso_8601, _), error(_, _), fail).
 
                 /*******************************
+                *             DEMO             *
+                *******************************/
+
+demo_claim(Claim) :-
+    project_file('experiments/sync/study_demo.pl', File),
+    read_file_to_terms(File, Terms, [encoding(utf8)]),
+    member(claim(Claim, _, _), Terms).
+
+shown_claim(Lines, Claim) :-
+    member(Line, Lines),
+    string_concat("      held ", Rest, Line),
+    split_string(Rest, "", " ", [Claim]).
+
+                /*******************************
                 *           VERSIONS           *
                 *******************************/
 
@@ -155,6 +169,16 @@ test(readme_begins_with_demo_and_test,
     append(Screen, _, Lines),
     format(string(Command), "    $ make ~w", [Target]),
     once(( member(Line, Screen), string_concat(Command, _, Line) )).
+test(readme_shows_the_claims_of_the_demo, Others == []) :-
+    findall(Claim, demo_claim(Claim), Claims),
+    lines('README.md', Lines),
+    findall(Claim, ( shown_claim(Lines, Claim), \+ memberchk(Claim, Claims) ),
+            Others),
+    shown_claim(Lines, _),
+    !,
+    length(Claims, Count),
+    format(string(Verdict), "    All ~d claims held.", [Count]),
+    memberchk(Verdict, Lines).
 test(contributing_is_one_page) :-
     lines('CONTRIBUTING.md', Lines),
     length(Lines, Count),
