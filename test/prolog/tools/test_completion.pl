@@ -39,6 +39,7 @@ test(hosts, [forall(member(Before-Line,
                              "remote(b"-"remote(beta",
                              "remote('b"-"remote('beta'",
                              "link(alpha, be"-"link(alpha, beta",
+                             "unlink(al"-"unlink(alpha",
                              "agent_move(bob, a"-"agent_move(bob, alpha",
                              "agent_move(f('x)', [1,2]), a"-
                              "agent_move(f('x)', [1,2]), alpha",
@@ -53,7 +54,9 @@ test(agents, [forall(member(Before-Line,
                             [ "agent_send(b"-"agent_send(bob",
                               "X = 1, agent_property(b"-
                               "X = 1, agent_property(bob",
-                              "agent_send(at(b"-"agent_send(at(bob" ])),
+                              "agent_send(at(b"-"agent_send(at(bob",
+                              "payload_attach(b"-"payload_attach(bob",
+                              "payload_detach(b"-"payload_detach(bob" ])),
               Line == Completed]) :-
     with_agents(on_tab(Before, Completed)).
 test(agent_by_quoted_id) :-

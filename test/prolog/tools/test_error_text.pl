@@ -95,7 +95,78 @@ at_the_top_level(Ball) :-
     print_message(error, Ball),
     print_message(warning, unhandled_exception(Ball)).
 
+%   shown(Formal, Text): of errors of ISO and SWI-Prolog, and why a host refuses
+%   an agent.
+
+shown(instantiation_error, "Arguments are not sufficiently instantiated").
+shown(uninstantiation_error(x), "Uninstantiated argument expected, found x").
+shown(type_error(evaluable, f/1), "Arithmetic: `f/1' is not a function").
+shown(type_error(t, Culprit), Text) :-
+    member(Culprit-Kind,
+           [ 1-"an integer", 1.5-"a float", 1r3-"a rational", "a"-"a string",
+             a-"an atom", [a]-"a list", f(x)-"a compound", _{a:1}-"a dict",
+             []-"an empty_list" ]),
+    format(string(Text), "Type error: `t' expected, found `~p' (~s)",
+           [Culprit, Kind]).
+shown(domain_error(d, x), "Domain error: `d' expected, found `x'").
+shown(existence_error(procedure, p/1), "Unknown procedure: p/1").
+shown(existence_error(matching_rule, p(1)), "No rule matches p(1)").
+shown(existence_error(file, f), "file `f' does not exist").
+shown(existence_error(key, k, d), "key `k' does not exist in d").
+shown(permission_error(modify, static_procedure, p/1),
+      "No permission to modify static procedure `p/1'").
+shown(permission_error(call, built_in_procedure, p/1),
+      "No permission to call built-in predicate `p/1'").
+shown(permission_error(open, door, d), "No permission to open door `d'").
+shown(representation_error(r), "Cannot represent due to `r'").
+shown(evaluation_error(undefined),
+      "Arithmetic: evaluation error: `undefined'").
+shown(resource_error(memory), "Not enough resources: memory").
+shown(busy(mutex, m), "mutex `m' is busy").
+shown(timeout_error(read, s), "Timeout in read from s").
+shown(io_error(read, s), "I/O error in read on stream s").
+shown(socket_error(eother, "no"), "Socket error: no").
+shown(ssl_error('1', x, f, why), "SSL(1) f: why").
+shown(system_error("bad"), "error in system call: bad").
+shown(shell(127, ls), "Could not execute `ls' (127)").
+shown(format("few"), "Format error: few").
+shown(format_argument_type(d, x),
+      "Illegal argument to format sequence ~d: x").
+shown(duplicate_key(k), "Duplicate key: k").
+shown(goal_failed(p(1)), "goal unexpectedly failed: p(1)").
+shown(determinism_error(p/1, det, fail, property),
+      "p/1 is declared det, and was fail").
+shown(syntax_error(What), Text) :-
+    member(What-Words,
+           [ cannot_start_term-"Illegal start of term",
+             operator_clash-"Operator priority clash",
+             operator_balance-"Unbalanced operator",
+             end_of_clause-"Unexpected end of clause",
+             end_of_file-"Unexpected end of file",
+             list_rest-"Unexpected comma or bar in rest of list",
+             quoted_punctuation-
+             "Operand expected, unquoted comma or bar found",
+             undefined_char_escape-"Undefined char escape",
+             'as it is'-"as it is" ]),
+    string_concat("Syntax error: ", Words, Text).
+shown(move_refused(h, Why), Text) :-
+    member(Why-Words,
+           [ capacity-"it is full",
+             token-"none of its tokens is wanted there",
+             unsigned-"no author that it trusts has signed its code",
+             identity-"its owner has not signed its identity",
+             unknown_host-
+             "there is no host of that name in the process of the agent; for \c
+              other processes let it carry the address, as \c
+              host_property(h, address(A)) gives it",
+             quota(cells)-"the quota of cells would be exceeded",
+             other(1)-"other(1)" ]),
+    string_concat("h refuses to admit the agent: ", Words, Text).
+
 :- begin_tests(error_text).
+
+test(texts, [forall(shown(Formal, Expected)), Text == Expected]) :-
+    error_text(error(Formal, _), Text).
 
 test(hostile_errors_are_written,
      [forall(hostile(Ball)), true(Text \== "")]) :-
@@ -121,8 +192,6 @@ test(text_of_iso_errors,
      Text == "foo/1: Type error: `integer' expected, found `a' (an atom) \c
               (why)") :-
     error_text(error(type_error(integer, a), context(foo/1, why)), Text).
-test(text_of_own_errors, Text == "h refuses to admit the agent: it is full") :-
-    error_text(error(move_refused(h, capacity), _), Text).
 test(text_of_unknown_errors,
      Text == "Unknown error term: format(\"~@\",[halt])") :-
     error_text(error(format("~@", [halt]), _), Text).
