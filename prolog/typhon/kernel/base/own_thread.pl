@@ -84,12 +84,16 @@ alone(Goal) :-
 %!  uncounted(:Goal) is semidet.
 %
 %   As in_own_thread/1, and the inferences of Goal do not count for the limit of
-%   the caller: from version 10, thread_join/2 adds those of the thread.
+%   the caller, unless that is the main thread: from version 10, thread_join/2
+%   adds those of the thread.  So the thread is not joined, and may exist a little
+%   longer than Goal runs; cells cannot begin then, see set_prolog_flag/2, threads.
 
 uncounted(Goal) :-
-    in_place,
+    (   in_place
+    ;   thread_self(main)
+    ),
     !,
-    once(Goal).
+    in_own_thread(Goal).
 uncounted(Goal) :-
     setup_call_cleanup(
         message_queue_create(Queue),
