@@ -7,8 +7,9 @@ This is the interface of the layer: higher layers import from here.
 */
 
 :- reexport(program/bodies,
-            [ body_goals/4, clause_parts/3, control/1, goals_body/2,
-              indicator_in/2, named/4, plain_goal/2, special/2 ]).
+            [ body_goals/4, clause_parts/3, control/1, control_of_system/1,
+              control_use/2, control_written/2, goals_body/2, indicator_in/2,
+              named/4, plain_goal/2, special/2 ]).
 :- reexport(program/paths, [path_below/1]).
 :- reexport(program/libraries,
             [ declared_meta/3, import_fault/2, import_operators/2,

@@ -20,7 +20,7 @@ This is the interface of the layer: higher layers import from here.
               frame_fits/1 ]).
 :- reexport(wire/request,
             [endpoint_later/1, endpoint_reply/2, endpoint_reply_later/2]).
-:- reexport(wire/kinds, [arrival_permitted/4]).
+:- reexport(wire/kinds, [arrival_permitted/4, right/3]).
 :- reexport(wire/reader, [endpoint_afterwards/1]).
 :- reexport(wire/connection_manager, [endpoint_flush/1, endpoint_flush/2]).
 :- reexport(wire/peer_cache,

@@ -7,14 +7,14 @@
               [abridged/3, is_tree/2, print_error/2]).
 :- use_module('../kernel/base/private', [output_file/2, private_open/4]).
 :- use_module('../kernel/base/text', [write_portable/3]).
-:- use_module('../kernel/wire', [endpoint_proof/2]).
+:- use_module('../kernel/wire', [endpoint_proof/2, right/3]).
 :- use_module('../kernel/host', [host_option/2]).
 
 /** <module> Access rules for peers, and the audit log
 
 The option peer(Rules) of a host is a list of Peer-Rights.  Peer is `cookie`,
 certificate(Name), or a pattern of these; Rights is `all` or a list of rights,
-see typhon_rights.  Rules call the right `inspect` `watch`.  The first rule that
+see typhon_kinds.  Rules call the right `inspect` `watch`.  The first rule that
 matches the proof of a peer applies; a peer without a matching rule has no
 right.
 
@@ -69,7 +69,7 @@ forbids(Rules, from(Peer, _, _), _, _, refused(peer)) :-
     endpoint_proof(Peer, Proof),
     \+ permits(Rules, Proof, agents).
 
-%   permits(+Rules, +Proof, +Right): see typhon_rights.
+%   permits(+Rules, +Proof, +Right): see typhon_host_parts.
 
 permits(Rules, Proof, Right) :-
     member(Peer-Rights, Rules),
@@ -79,13 +79,6 @@ permits(Rules, Proof, Right) :-
     ->  true
     ;   memberchk(Right, Rights)
     ).
-
-right(agents).
-right(messages).
-right(orders).
-right(remote).
-right(watch).
-right(log).
 
 %   @error domain_error(peer_rule, Rule)
 
@@ -107,7 +100,7 @@ rights(Rights) :-
     !.
 rights(Rights) :-
     is_list(Rights),
-    forall(member(Right, Rights), ( ground(Right), right(Right) )).
+    forall(member(Right, Rights), ( ground(Right), right(Right, _, _) )).
 
 %   note(+File, +Host, +Peer, +Proof, +What): Proof is how Peer has proved its
 %   identity; What is that of security_event/3.

@@ -8,25 +8,15 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../wire',
-              [endpoint_address/1, endpoint_own_proof/1, endpoint_proof/2]).
+              [endpoint_address/1, endpoint_own_proof/1, endpoint_proof/2, right/3]).
 :- use_module(host_parts, [parts/3]).
 :- use_module(hosts, [host/3, host_option/2]).
 
 /** <module> The rights of other processes
 
-The rights are
-
-  - agents: create agents here, send agents here, and report where agents are
-    and how they ended
-  - messages: send messages to agents here, and pheromones
-  - orders: dispose of agents, move and change them; link the host
-  - remote: run goals here
-  - watch: read agents, events and the properties of the host
-  - log: write into logs of this process
-
 What another process sends is checked against the declarations of
-typhon_kinds.  A peer has all rights, but `remote` and `log` only if it proves
-that it has the secret of this process: the cookie, or, where processes have
+typhon_kinds.  A peer has all its rights, but those that need the secret of this
+process only if it proves that it has it: the cookie, or, where processes have
 keys, its certificate.
 The parts of a host in the phase `permit` can decide otherwise, and those in
 the phase `security` record security events; see typhon_host_parts.
@@ -57,11 +47,11 @@ typhon_kinds:peer_permitted(parent, _, Term, Peer) :-
     ;   refused_everywhere(parent, Peer)
     ).
 typhon_kinds:peer_permitted(Right, _, _, _) :-
+    right(Right, any, none),
     \+ parts(permit, _, _),
-    \+ secret_needed(Right),
-    \+ audited(Right),
     !.
 typhon_kinds:peer_permitted(Right, Scope, Term, Peer) :-
+    right(Right, _, Audit),
     scope_hosts(Scope, Hosts),
     (   Hosts == []
     ->  endpoint_proof(Peer, Proof),
@@ -72,10 +62,10 @@ typhon_kinds:peer_permitted(Right, Scope, Term, Peer) :-
     ;   maplist(peer_has(Peer, Right), Hosts)
     ),
     !,
-    (   audited(Right)
-    ->  used(Right, Scope, Term, What),
+    (   Audit == none
+    ->  true
+    ;   used(Right, Scope, Term, What),
         forall(member(Host, Hosts), security_event(Host, Peer, What))
-    ;   true
     ).
 typhon_kinds:peer_permitted(Right, some, _, Peer) :-
     refused_everywhere(Right, Peer).
@@ -108,15 +98,18 @@ scope_hosts(all, Hosts) :-
 scope_hosts(some, Hosts) :-
     scope_hosts(all, Hosts).
 
-%   The use of these rights is a security event.
+%   used(+Right, +Scope, +Term, -What): What is the security event.
 
-audited(orders).
-audited(remote).
-
-used(remote, _, remote(_, Goal), remote(Goal)).
-used(orders, agent(_), question(Id, Order), order(Id, Order)) :-
+used(remote, _, remote(_, Goal), remote(Goal)) :-
     !.
-used(orders, Scope, Order, order(Of, Order)) :-
+used(Right, Scope, Term, What) :-
+    right(Right, _, Audit),
+    order(Scope, Term, Of, Order),
+    What =.. [Audit,Of,Order].
+
+order(agent(_), question(Id, Order), Id, Order) :-
+    !.
+order(Scope, Order, Of, Order) :-
     ( compound(Scope) -> arg(1, Scope, Of) ; Of = Scope ).
 
                 /*******************************
@@ -136,7 +129,7 @@ peer_may(Peer, Host, Right) :-
     ).
 
 permitted(_, Host, Right) :-
-    \+ secret_needed(Right),
+    right(Right, any, _),
     \+ parts(permit, Host, _),
     !.
 permitted(Peer, Host, Right) :-
@@ -151,14 +144,12 @@ proof_may(Proof, _, Right) :-
     by_default(Proof, Right).
 
 by_default(Proof, Right) :-
-    (   secret_needed(Right)
-    ->  endpoint_own_proof(Proof)
-    ;   true
+    right(Right, Needs, _),
+    (   Needs == any
+    ->  true
+    ;   endpoint_own_proof(Proof)
     ),
     !.
-
-secret_needed(remote).
-secret_needed(log).
 
 %   A peer that may not run goals here must not be able to end the process by a
 %   binary record either.  The codec of a session is chosen when the session

@@ -6,10 +6,13 @@
             indicator_in/2,             % +PIs, ?PI
             called_goal/2,              % +Goal, -Called
             control/1,                  % ?Head
+            control_use/2,              % ?Head, ?Use
+            control_written/2,          % ?Head, -Written
+            control_of_system/1,        % ?Head
             special/2,                  % ?Head, ?Kind
             named/4                     % +Prefix, +Goal, +More, -Named
           ]).
-:- use_module(library(lists), [append/3]).
+:- use_module(library(lists), [append/3, member/2]).
 
 /** <module> Clause bodies as lists of goals, and back
 
@@ -141,28 +144,68 @@ named(Prefix, Goal, More, Named) :-
 control(Head) :-
     special(Head, control).
 
+%!  control_use(?Head, ?Use) is nondet.
+%
+%   The control predicates.  Use is
+%
+%   | called(Det)           | programs call it; Det is `det` or `semidet`     |
+%   | waits(Written, Until) | an agent that waits goes on with Head, until    |
+%   |                       | the host time Until; its program has Written    |
+%   | restored(Written)     | the same, only in restore points of old         |
+%   |                       | versions                                        |
+%   | kernel                | the kernel alone makes it                       |
+
+control_use(move(_), called(det)).
+control_use(clone(_), called(det)).
+control_use(clone(_, _), called(det)).
+control_use(sleep(_), called(det)).
+control_use(receive(_), called(det)).
+control_use(receive(_, _), called(semidet)).
+control_use(dispose, called(det)).
+control_use(sleep_until(Until), waits(sleep(_), Until)).
+control_use(receive_until(Message, Until, _),
+            waits(receive(Message, _), Until)).
+control_use(receive_until(Message, _), restored(receive(Message, _))).
+control_use('$fault'(_), kernel).       % stays in place: see typhon_ending
+
+%!  control_written(?Head, -Written) is nondet.
+%
+%   Head is the form that Written, a control predicate, has while the agent
+%   waits.
+
+control_written(Head, Written) :-
+    control_use(Head, Use),
+    ( Use = waits(Written, _) ; Use = restored(Written) ).
+
+%!  control_of_system(?Head) is nondet.
+%
+%   Prolog has a predicate of this name, too, which does not stop the agent but
+%   occupies its thread.
+
+control_of_system(Head) :-
+    control_use(Head, called(_)),
+    '$c_current_predicate'(_, system:Head).
+
 %!  special(?Head, ?Kind) is nondet.
 %
 %   Kind is `control`, `call` (call/N), or `checked` (see typhon_checked).
 
-term_expansion(special_of(Name, Kind), Specials) :-
+term_expansion(specials(Kinds), Specials) :-
     findall(special(Goal, Kind),
-            ( between(1, 16, Arity), functor(Goal, Name, Arity) ),
-            Specials).
+            ( member(Kind, Kinds), special_goal(Kind, Goal) ), Specials).
 
-special(move(_), control).
-special(clone(_), control).
-special(clone(_, _), control).
-special(sleep(_), control).
-special(receive(_), control).
-special(receive(_, _), control).
-special(dispose, control).
-special(sleep_until(_), control).
-special(receive_until(_, _, _), control).
-special(receive_until(_, _), control).  % in old restore points
-special('$fault'(_), control).          % stays in place: see typhon_ending
-special_of(call, call).                 % with more than one argument
-special_of('$checked', checked).        % see typhon_checked
+special_goal(control, Goal) :-
+    control_use(Control, _),
+    functor(Control, Name, Arity),
+    functor(Goal, Name, Arity).
+special_goal(call, Goal) :-
+    between(1, 16, Arity),
+    functor(Goal, call, Arity).
+special_goal(checked, Goal) :-
+    between(1, 16, Arity),
+    functor(Goal, '$checked', Arity).
+
+specials([control, call, checked]).
 
 %!  clause_parts(+Clause, -Head, -Body) is det.
 %

@@ -7,6 +7,7 @@
           ]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [member/2, memberchk/2, select/3]).
+:- use_module(bodies, [control_of_system/1]).
 
 /** <module> What an agent may change in its thread and process
 
@@ -108,7 +109,7 @@ variable(nb_getval(Name, V), Name, Key, value(Name, Key, V)).
 variable(b_getval(Name, V), Name, Key, value(Name, Key, V)).
 variable(nb_delete(Name), Name, Key, nb_delete(Key)).
 
-confined(sleep(_)).
+confined(Head) :- control_of_system(Head).
 confined(nb_current(_, _)).
 confined(Head) :- variable(Head, _, _, _).
 confined(Head) :- noted(Head, _).
@@ -155,8 +156,9 @@ confine(Base, Name/Arity) :-
 
 :- public call_confined/2.
 
-call_confined(sleep(_), _) =>            % that of system occupies the thread
-    refuse(control_predicate, sleep/1, 'call it where the agent can stop').
+call_confined(Head, _), control_of_system(Head) =>
+    functor(Head, Name, Arity),
+    refuse(control_predicate, Name/Arity, 'call it where the agent can stop').
 call_confined(Head, Agent), in_step =>
     in_step(Head, Agent).
 call_confined(Head, Agent) =>

@@ -11,6 +11,7 @@
           ]).
 :- use_module(library(error), [permission_error/3]).
 :- use_module('../base/error_text', [is_abort/1]).
+:- use_module('../program', [control_of_system/1]).
 :- use_module('../agent', [agent_variant/2]).
 
 /** <module> Goals that are checked when they are called
@@ -58,13 +59,15 @@ checked_clauses.
 
 :- public native/4.
 
-%   native(+Module, +Closure, +Extra, -Goal): refuses sleep/1, because that of
-%   the system would occupy the thread.
+%   native(+Module, +Closure, +Extra, -Goal): Goal is no control predicate of
+%   the system, as sleep/1, which would occupy the thread.
 
 native(Module, Closure, Extra, Goal) :-
     called(Module, Closure, Extra, Goal),
-    (   Goal = sleep(_)
-    ->  permission_error(call, control_predicate, sleep/1)
+    (   nonvar(Goal),
+        control_of_system(Goal)
+    ->  functor(Goal, Name, Arity),
+        permission_error(call, control_predicate, Name/Arity)
     ;   true
     ).
 

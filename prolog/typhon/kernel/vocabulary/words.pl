@@ -30,7 +30,8 @@
 :- use_module('../base/on_demand', [on_demand_load/2, on_demand_missing/2]).
 :- use_module('../base/own_thread', [uncounted/1]).
 :- use_module('../base/reports', [report/4]).
-:- use_module('../program', [vocabulary/1]).
+:- use_module('../program',
+              [control_of_system/1, control_use/2, vocabulary/1]).
 :- use_module('../wire', [mobile_term/1]).
 :- use_module('../host',
               [ context/3, context_agent/1, context_host/1, context_now/2,
@@ -334,19 +335,11 @@ message_failed(From, Message) :-
 %   @error host_unreachable(Host)
 %   @error type_error(mobile_term, Culprit)
 
-move(_) :-
-    misplaced(move/1).
-
 %!  clone(-Role) is det.
 %!  clone(+Host, -Role) is det.
 %
 %   Clone this agent, here or on Host.  This agent goes on with Role =
 %   parent(CloneId), the clone with Role = clone(ParentId).
-
-clone(_) :-
-    misplaced(clone/1).
-clone(_, _) :-
-    misplaced(clone/2).
 
 %!  sleep(+Seconds) is det.
 %
@@ -361,17 +354,20 @@ clone(_, _) :-
 %   one, for at most Timeout seconds of host time.  Other messages stay in the
 %   mailbox.
 
-receive(_) :-
-    misplaced(receive/1).
-receive(_, _) :-
-    misplaced(receive/2).
-
 %!  dispose is det.
 %
 %   End this agent.
 
-dispose :-
-    misplaced(dispose/0).
+%   Each control predicate that Prolog does not have raises this error.
+
+term_expansion(misplaced_controls, Clauses) :-
+    findall((Head :- misplaced(Name/Arity)),
+            ( control_use(Head, called(_)),
+              \+ control_of_system(Head),
+              functor(Head, Name, Arity) ),
+            Clauses).
+
+misplaced_controls.
 
 misplaced(PI) :-
     throw(error(permission_error(call, control_predicate, PI),

@@ -1,6 +1,7 @@
 :- module(typhon_kinds,
           [ arrival_permitted/4,        % +Form, +Kind, +Term, +Peer
             arrival_verdict/5,          % +Form, +Kind, +Term, +Peer, -Verdict
+            right/3,                    % ?Right, ?Needs, ?Audit
             arrives/6                   % ?Form, ?Kind, ?Term, ?Right, ?Scope,
                                         % ?Module
           ]).
@@ -21,7 +22,7 @@ Forms are
   | order               | what the request `node`, which only the parent   |
   |                     | of this process may send, has it do              |
 
-Rights are those of typhon_rights, and
+Rights are those of right/3, and
 
   | none   | each process that has proved itself                         |
   | asked  | none, but Module accepts only what this process asked for   |
@@ -198,6 +199,19 @@ conjunction([Test|Tests], (Test, Body)) :-
                 /*******************************
                 *         DECLARATIONS         *
                 *******************************/
+
+%!  right(?Right, ?Needs, ?Audit) is nondet.
+%
+%   Needs is `secret` if only peers with the secret of this process have Right,
+%   where no part of a host decides; else `any`.  Audit is `none`, or each use is
+%   a security event of that name.
+
+right(agents, any, none).       % create and send agents, report where they are
+right(messages, any, none).     % send messages to agents here, and pheromones
+right(orders, any, order).      % end, move and change agents, link the host
+right(remote, secret, remote).  % run goals here
+right(watch, any, none).        % read agents, events, properties of the host
+right(log, secret, none).       % write into logs of this process
 
 %!  arrives(?Form, ?Kind, ?Term, ?Right, ?Scope, ?Module) is nondet.
 %

@@ -11,7 +11,7 @@
 :- use_module(library(error), [permission_error/3, resource_error/1]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(solution_sequences), [limit/2]).
-:- use_module('../../kernel/program', [clause_parts/3]).
+:- use_module('../../kernel/program', [clause_parts/3, control_use/2]).
 :- use_module('../../kernel/host',
               [host/3, parts_call/3, place_service/2, security_event/2]).
 :- use_module('../../kernel/agent',
@@ -45,7 +45,8 @@ cell_outcome(raised(Error)) :-
 cell_outcome(effect(Control, Hole, Goals)) :-
     var(Hole),
     nonvar(Control),
-    is_control(Control),
+    control_use(Control, Use),
+    may_come(Use),
     is_list(Goals),
     maplist(is_goal, Goals).
 
@@ -56,15 +57,8 @@ is_goal(Goal) :-
     callable(Goal),
     Goal \= '$fault'(_).
 
-is_control(move(_)).
-is_control(clone(_)).
-is_control(clone(_, _)).
-is_control(sleep(_)).
-is_control(sleep_until(Until)) :- number(Until).
-is_control(receive(_)).
-is_control(receive(_, _)).
-is_control(receive_until(_, Until, _)) :- number(Until).
-is_control(dispose).
+may_come(called(_)).
+may_come(waits(_, Until)) :- number(Until).
 
 %!  cell_fault(+Note, +Outcome, -Fault) is det.
 %

@@ -10,7 +10,8 @@
 :- use_module(library(error), [domain_error/2]).
 :- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(readutil), [read_file_to_terms/3]).
-:- use_module('../../kernel/program', [vocabulary_word/2]).
+:- use_module('../../kernel/program',
+              [control_of_system/1, control_written/2, vocabulary_word/2]).
 :- use_module(constructs, [construct/2]).
 
 /** <module> Predicates that untrusted agents may call
@@ -65,12 +66,9 @@ allowed(Policy, Goal, free) :-
 refuses(Policy, Goal) :-
     rule(Goal, Policy, refuse),
     !.
-refuses(Policy, sleep_until(Until)) :-
-    rule(sleep(Until), Policy, refuse).
-refuses(Policy, receive_until(Pattern, Until)) :-
-    rule(receive(Pattern, Until), Policy, refuse).
-refuses(Policy, receive_until(Pattern, Until, _)) :-
-    rule(receive(Pattern, Until), Policy, refuse).
+refuses(Policy, Goal) :-
+    control_written(Goal, Written),
+    rule(Written, Policy, refuse).
 
 %   needs_check(?Goal, ?Kind): the safety of Goal depends on its arguments,
 %   which typhon_guard_calls checks as Kind demands.
@@ -134,7 +132,7 @@ makes_atoms(iri_normalized(_, _, _)).
 withheld(Head) :-
     functor(Head, Name, Arity),
     memberchk(Name/Arity,
-              [ abort/0, sleep/1, writeln/1, print_message/2,
+              [ abort/0, writeln/1, print_message/2,
                 message_to_string/2, format_time/3, format_time/4,
                 normalize_space/2, b_getval/2, nb_getval/2, nb_current/2,
                 abolish_all_tables/0, thread_self/1, statistics/2,
@@ -154,6 +152,9 @@ withheld(Head) :-
                 deliver/1, undeliver/1, % all agents on the host would call it
                 seal/3, unseal/2,       % use the keys of the process
                 (\)/1, (\)/2, (^)/2 ]),
+    !.
+withheld(Head) :-
+    control_of_system(Head),
     !.
 withheld(Head) :-
     functor(Head, Name, _),

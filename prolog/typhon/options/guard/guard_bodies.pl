@@ -11,7 +11,7 @@
 :- use_module(library(apply), [maplist/3, maplist/4]).
 :- use_module(library(assoc), [get_assoc/3]).
 :- use_module(library(lists), [append/3]).
-:- use_module('../../kernel/program', [control/1]).
+:- use_module('../../kernel/program', [control_of_system/1, control_use/2]).
 :- use_module(allowed, [allowed/3, definable/1, own_name/1, refuses/2]).
 :- use_module(constructs, [construct/2]).
 :- use_module(guard_limits, [refuse/1]).
@@ -134,8 +134,8 @@ guard_part(Own, Part0, Part) :-
     guard(Part0, Own, Part).
 
 %   Goals that are guarded already, the goal at which a suspended agent
-%   continues, and the goals that stop an agent, except sleep/1, which the
-%   system would run instead.
+%   continues, and the goals that stop an agent, except those that the system
+%   would run instead.
 
 passes(Goal) :-
     compound(Goal),
@@ -145,17 +145,15 @@ passes('$at'(_, Answer)) :-
     ( Answer == fail ; subsumes_term(throw(error(_, _)), Answer) ).
 passes(Goal) :-
     is_control(Goal),
-    Goal \= sleep(_).
+    \+ control_of_system(Goal).
 
 %!  is_control(@Goal) is semidet.
 %
 %   Goal stops the agent, which continues after it in a later turn.
 
 is_control(Goal) :-
-    control(Goal),
-    functor(Goal, Name, _),
-    Name \== call,
-    \+ sub_atom(Name, 0, _, _, $).
+    control_use(Goal, Use),
+    Use \== kernel.
 
 %   Only the agent itself, or a service of its place, can define a predicate
 %   with the name of an unknown goal.

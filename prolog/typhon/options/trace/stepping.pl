@@ -14,7 +14,8 @@
                 turn_settled/0, turn_unit/1 ]).
 :- use_module('../../tools/administration', [agent_property/2]).
 :- use_module('../../kernel/program',
-              [ fault_note/1, fault_noted/1, machine_run/3, plain_goals/2 ]).
+              [ control_use/2, fault_note/1, fault_noted/1, machine_run/3,
+                plain_goals/2 ]).
 :- use_module(spying, [spied/3, spied_program/1]).
 :- use_module(tracing,
               [ goal_shown/3, held_on/2, traced_goals/1, traced_held/1,
@@ -294,20 +295,15 @@ run(Context, Program, Agent, Goals, outcome(Outcome, Goals)-Note) :-
     fault_noted(Note),
     stops_at(Outcome).
 
+%   An agent that is woken repeats its other controls to check the time.  They
+%   are no new steps.
+
 stops_at(Outcome) :-
     (   Outcome = effect(Control, _, [_|Goals]),
-        \+ again(Control)
+        control_use(Control, called(_))
     ->  engine_yield(goal(Control, Goals)-none)
     ;   true
     ).
-
-%   An agent that is woken repeats these controls to check the time.  They are
-%   no new steps.
-
-again(sleep_until(_)).
-again(receive_until(_, _)).
-again(receive_until(_, _, _)).
-again('$fault'(_)).
 
 :- public '$mobile'/6.
 

@@ -3,7 +3,8 @@
           ]).
 :- use_module(library(lists),
               [append/3, intersection/3, member/2, memberchk/2, union/3]).
-:- use_module('../../kernel/program', [body_calls/2, built_in/1, is_mobile/2]).
+:- use_module('../../kernel/program',
+              [body_calls/2, built_in/1, control_use/2, is_mobile/2]).
 
 /** <module> Choice points that a stop discards, and the program seems to rely
 on
@@ -241,8 +242,9 @@ is_test(Goal) :-
                     (<)/2, (>)/2, (=<)/2, (>=)/2, (@<)/2, (@>)/2, (@=<)/2,
                     (@>=)/2, var/1, nonvar/1, atom/1, number/1, integer/1,
                     atomic/1, compound/1, callable/1, ground/1, is_list/1,
-                    memberchk/2, forall/2, sense/1, take/1, receive/2,
-                    receive_until/2 ]).
+                    memberchk/2, forall/2, sense/1, take/1 ]).
+is_test(Goal) :-
+    control_use(Goal, called(semidet)).
 
 %   may_choose(+Goal) is semidet: Goal may be meant to choose between clauses.
 

@@ -7,7 +7,7 @@
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(lists), [append/3, member/2, memberchk/2, nth1/3]).
-:- use_module('../../kernel/program', [clause_parts/3, control/1]).
+:- use_module('../../kernel/program', [clause_parts/3, control/1, control_written/2]).
 :- use_module(clause_location, [body_list/2, point/3]).
 
 /** <module> The clauses of remaining goals, and the names of their variables
@@ -200,20 +200,14 @@ current_form_as(Hole, First, _, _) :-
     !,
     nonvar(First),
     control(First).
-current_form_as(sleep_until(_), First, _, Pattern) :-
+current_form_as(Goal, First, _, Pattern) :-
+    control_written(Goal, _),
     !,
-    subsumes_term(sleep(_), First),
-    Pattern = sleep_until(_).
-current_form_as(receive_until(_, _), First, _, Pattern) :-
-    !,
-    subsumes_term(receive(_, _), First),
-    First = receive(Message, _),
-    Pattern = receive_until(Message, _).
-current_form_as(receive_until(_, _, _), First, _, Pattern) :-
-    !,
-    subsumes_term(receive(_, _), First),
-    First = receive(Message, _),
-    Pattern = receive_until(Message, _, _).
+    functor(Goal, Name, Arity),
+    functor(Pattern, Name, Arity),
+    control_written(Pattern, Written),
+    subsumes_term(Written, First),
+    Written = First.
 current_form_as(Goal, First, How, Pattern) :-
     begins(Goal, Now, _),
     nonvar(First),

@@ -4,11 +4,13 @@
 :- use_module(library(plunit)).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2, numlist/3]).
-:- use_module(library(readutil), [read_file_to_terms/3]).
+:- use_module(library(readutil),
+              [read_file_to_string/3, read_file_to_terms/3]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/options/access), []).
 :- use_module(library(typhon/options/identity/sender_rights), []).
 :- use_module(library(typhon/kernel/wire), [endpoint_address/1]).
+:- use_module(library(typhon/kernel/wire/kinds), [arrives/6]).
 
 /** <module> Rights by proofs, on which hosts, and what the audit keeps
 
@@ -18,7 +20,16 @@ The peer is this process, which has the cookie.
 */
 
 right(Right) :-
-    member(Right, [agents,messages,orders,remote,watch,log]).
+    typhon_kinds:right(Right, _, _).
+
+%   has_row(+Right): the table of rights in doc/security.md has a row of Right.
+
+has_row(Right) :-
+    project_file('doc/security.md', File),
+    read_file_to_string(File, Text, [encoding(utf8)]),
+    format(string(Row), "\n| `~w` | ", [Right]),
+    sub_string(Text, _, _, _, Row),
+    !.
 
 %   has(+Proof, +Host, -Rights)
 
@@ -87,6 +98,15 @@ test(orders_need_the_secret_of_the_parent, Answers == [no,yes,no]) :-
         answers([ parent(order(wrong, x)), parent(order(right, x)),
                   parent(order(_, x)) ], Answers),
         retractall(typhon_rights:secret(_))).
+test(declared_terms_need_rights_of_the_table, Unknown == []) :-
+    findall(Right, ( arrives(_, _, _, Right, _, _),
+                     \+ memberchk(Right, [none,asked,gate,parent]),
+                     \+ right(Right) ), Unknown).
+test(rights_of_no_table_are_given_to_no_peer, Answers == [no,no,no]) :-
+    with_hosts([g], answers([ permitted(bogus, host(g)), permitted(bogus, all),
+                              permitted(bogus, host(no)) ], Answers)).
+test(documents_have_each_right, Missing == []) :-
+    findall(Right, ( right(Right), \+ has_row(Right) ), Missing).
 test(rules_are_checked, Answers ==
      [yes,yes,yes,yes,no,no,no,no,no,no,no]) :-
     findall(A, ( member(Rules, [ [], [cookie-all], [certificate(x)-[agents]],
