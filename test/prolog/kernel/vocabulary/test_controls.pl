@@ -55,14 +55,17 @@ documented(Head) :-
     functor(Head, Name, Arity),
     between_pieces(Text, Piece),
     catch(term_string(Call, Piece), error(_, _), fail),
+    callable(Call),
     functor(Call, Name, Arity),
     !.
 
 between_pieces(Text, Piece) :-
     split_string(Text, "`", "", Pieces),
-    member(Piece, Pieces),
-    string_length(Piece, Length),
-    Length < 80.
+    member(Piece0, Pieces),
+    string_length(Piece0, Length),
+    Length < 80,
+    split_string(Piece0, "?", "", Parts),   % a mode is no operator
+    atomics_to_string(Parts, Piece).
 
 %   displayed(+File, +Head): File, which colours programs, has the name.
 
