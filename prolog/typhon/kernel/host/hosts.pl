@@ -14,12 +14,13 @@
             host_load/2,                % +Name, -Load
             host_hop_times/3,           % +Name, ?Direction, -Times
             host_hop/3,                 % +Name, +Direction, +Seconds
-            host_plain/3,               % +Host, ?Name, -Plain
+            host_landing/4,             % +Name, -Address, -Place, -Landing
+            host_came/2,                % +Landing, +Since
             host_plain_leaves/2,        % +Name, -Since
-            host_came/2,                % +Name-Plain, +Since
             host_left/2,                % +Name, +Since
-            host_passage/5,             % +Here, +Host, -From, -To, -Since
-            host_passes/4,              % +From, +Name-To, +Since, -Seconds
+            host_passage/5,             % +Here, +Host, -Name-Address,
+                                        % -Place0-Place, -Passage
+            host_passes/2,              % +Passage, -Seconds
             host_neighbours/2,          % +Name, -Addresses
             host_link/3,                % +Name, +Address, +Cost
             host_unlink/2,              % ?Name, ?Address
@@ -103,11 +104,10 @@ begin_admitting(Name) :-
     counts(Name, Load, _, _),
     assertz(admits(Name, Tokens, Capacity, Load)).
 
-%!  host_plain(+Host, ?Name, -Plain) is semidet.
-%
-%   Host is Name or its address.  The host admits agents, has no parts, and asks
-%   for no token, so the kernel alone handles its hops.  Plain is one fact with
-%   all that a hop needs of it.
+%   host_plain(+Host, ?Name, -Plain): Host is Name or its address.  The host
+%   admits agents, has no parts, and asks for no token, so the kernel alone
+%   handles its hops.  Plain is one fact with all that a hop needs of it, known
+%   to this module alone.
 
 note_plain(Name) :-
     (   \+ parts(_, Name, _),
@@ -138,18 +138,24 @@ host_plain_leaves(Name, Since) :-
     monotonic_time(Now),
     Since is (Now-Epoch)*Rate.
 
-%!  host_passage(+Here, +Host, -From, -To, -Since) is semidet.
+%!  host_passage(+Here, +Host, -There, -Places, -Passage) is semidet.
 %
-%   A hop from Here to Host, another host of this process, begins at Since.
-%   From and To are of the form Name-Plain.  Fails if a host is not plain, or
-%   delays hops.  Since is `now` where no time passes.
+%   A hop from Here to Host, another host of this process, begins.  There is its
+%   Name-Address, and Places are those of both, Place0-Place.  Fails if a host is
+%   not plain, or Here delays hops.
+%
+%   @arg Passage is for host_passes/2
 
-host_passage(Here, Host, Here-From, Name-To, Since) :-
+%   The time is `now` where none passes.
+
+host_passage(Here, Host, Name-Address, Place0-Place,
+             passage(Here, From, Name, To, Since)) :-
     host_plain(Here, _, From),
-    From = plain(_, _, none, Epoch, Rate, _, _, _, _),
+    From = plain(_, Place0, none, Epoch, Rate, _, _, _, _),
     atom(Host),
     host_plain(Host, Name, To),
     Name \== Here,
+    To = plain(Address, Place, _, _, _, _, _, _, _),
     (   time_flag(_)
     ->  Since = now
     ;   monotonic_time(Now),
@@ -314,17 +320,22 @@ count(Flag, Change) :-
     Count is Count0+Change,
     set_flag(Flag, Count).
 
-%!  host_came(+Where, +Since) is semidet.
+%!  host_landing(+Name, -Address, -Place, -Landing) is semidet.
+%!  host_came(+Landing, +Since) is semidet.
 %
-%   Count an agent that arrives at Where, Name-Plain as in host_plain/3, by a
-%   hop that began at Since, in host time.  Fails and counts nothing if the
-%   host is full or no longer plain.
+%   Name, which is plain, can take an agent from another process.  host_came/2
+%   counts one that arrives by a hop that began at Since, in host time.  It fails
+%   and counts nothing if the host is full or no longer plain.
 
-host_came(Where, Since) :-
-    Where = _-plain(_, _, _, Epoch, Rate, _, _, In, _),
+host_landing(Name, Address, Place, landing(Name, Plain)) :-
+    host_plain(Name, Name, Plain),      % its name, and not its address
+    Plain = plain(Address, Place, _, _, _, _, _, _, _).
+
+host_came(landing(Name, Plain), Since) :-
+    Plain = plain(_, _, _, Epoch, Rate, _, _, _, _),
     monotonic_time(Now),
     Seconds is max(0.0, (Now-Epoch)*Rate-Since),
-    with_mutex(typhon_host_flags, came(Where, In, Seconds)).
+    with_mutex(typhon_host_flags, came(Name, Plain, Seconds)).
 
 %!  host_again(+Name) is det.
 %
@@ -377,13 +388,12 @@ host_left(Name, Since) :-
     ;   true                            % stopped meanwhile
     ).
 
-%!  host_passes(+From, +Where, +Since, -Seconds:float) is semidet.
+%!  host_passes(+Passage, -Seconds:float) is semidet.
 %
-%   Count a hop that began at Since, as in host_passage/5, from a plain host of
-%   this process to another, From and Where as in host_came/2.  Fails if the
-%   host of Where is full, or one of them is no longer plain.
+%   Count the hop of host_passage/5, which took Seconds.  Fails if the other host
+%   is full, or one of them is no longer plain.
 
-host_passes(Here-From, Where, Since, Seconds) :-
+host_passes(passage(Here, From, Name, To, Since), Seconds) :-
     host_plain(Here, _, From),          % it still is
     (   Since == now
     ->  Seconds = 0.0
@@ -391,21 +401,21 @@ host_passes(Here-From, Where, Since, Seconds) :-
         time_now(Now),
         Seconds is max(0.0, (Now-Epoch)*Rate-Since)
     ),
-    with_mutex(typhon_host_flags, passes(From, Where, Seconds)).
+    with_mutex(typhon_host_flags, passes(From, Name, To, Seconds)).
 
-passes(plain(_, _, _, _, _, _, Load0, _, Out), Where, Seconds) :-
-    Where = _-plain(_, _, _, _, _, _, Load, In, _),
+passes(plain(_, _, _, _, _, _, Load0, _, Out), Name, To, Seconds) :-
+    To = plain(_, _, _, _, _, _, Load, In, _),
     get_flag(Load, Count),
-    place_taken(Where, Count),
+    place_taken(Name, To, Count),
     left(Load0, Out, Seconds),
     hop_time_add(In, Seconds).
 
-%   place_taken(+Where, +Count): the load of Where, which is Count, grows by
-%   one.  A host that stops is first no longer plain, and then waits until its
-%   load is 0.  So if it is still plain after its load has grown, the stop
-%   waits for the agent.
+%   place_taken(+Name, +Plain, +Count): the load of Name, which is Count, grows
+%   by one.  A host that stops is first no longer plain, and then waits until its
+%   load is 0.  So if it is still plain after its load has grown, the stop waits
+%   for the agent.
 
-place_taken(Name-Plain, Count) :-
+place_taken(Name, Plain, Count) :-
     Plain = plain(_, _, _, _, _, Capacity, Load, _, _),
     Count < Capacity,
     Count1 is Count+1,
@@ -416,12 +426,12 @@ place_taken(Name-Plain, Count) :-
         fail
     ).
 
-came(Where, In, Seconds) :-
-    Where = _-plain(_, _, _, _, _, _, Load, _, _),
+came(Name, Plain, Seconds) :-
+    Plain = plain(_, _, _, _, _, _, Load, In, _),
     get_flag(Load, Count),
     Next is Count+1,
     \+ memory_short(Next),
-    place_taken(Where, Count),
+    place_taken(Name, Plain, Count),
     hop_time_add(In, Seconds).
 
 left(Load, Out, Seconds) :-

@@ -66,8 +66,8 @@ agent; answers and taken_over/4 in the threads of the endpoint, which never wait
 :- use_module('../base/error_text', [print_error/2]).
 :- use_module('../host',
               [ address_parts/3, amended/5, event/4, event_subscribed/1,
-                host/3, host_came/2, host_hop/3, host_leave/1, host_left/2,
-                host_passage/5, host_passes/4, host_plain/3,
+                host/3, host_came/2, host_hop/3, host_landing/4, host_leave/1,
+                host_left/2, host_passage/5, host_passes/2,
                 host_plain_leaves/2, host_time/2, parts/3, real_time/3,
                 schedule/2, schedule_here/3, schedule_stays/2,
                 scheduler_call/1 ]).
@@ -400,13 +400,12 @@ thawed(Id) :-
 
 taken_over(Host, Image, known, Peer) :-
     atom(Host),
-    host_plain(Host, Host, Plain),      % its name, and not its address
+    host_landing(Host, Address, Place, Landing),
     \+ event_subscribed(hops),
     image_plain(Image, Id, Hash, Life, Hops, Clauses, Goals, Since),
     code_compiled(Hash, Program),
-    arg(1, Plain, Address),
-    with_agent(Id, install(Id, Hops, Host-Plain, Hash-Program, Life, Clauses,
-                           Since, Home)),
+    with_agent(Id, install(Id, Hops, Host-Place, Landing, Hash-Program, Life,
+                           Clauses, Since, Home)),
     !,
     debug(typhon(hop), '~w hop ~D: is on ~w, from ~w',
           [Id, Hops, Address, Peer]),
@@ -418,14 +417,13 @@ taken_over(Host, Image, known, Peer) :-
 
 %   Signals are deferred, see reader.pl: none interrupts these steps.
 
-install(Id, Hops, Where, Hash-Program, Life, Clauses, Since, Home) :-
-    Where = Host-Plain,
+install(Id, Hops, Host-Place, Landing, Hash-Program, Life, Clauses, Since,
+        Home) :-
     \+ agent_on(Id, _),
     \+ backlog(Id),
     hop_is_new(Id, Hops, Home),
-    arg(2, Plain, Place),
     agent_module(Id, Place, Program, Clauses),
-    (   host_came(Where, Since)
+    (   host_came(Landing, Since)
     ->  agent_comes(Id, Host, Id, Hash, Life)
     ;   '$destroy_module'(Id),
         fail
@@ -448,14 +446,38 @@ go_on(Id, _, _, Goals, later) :-
 %   delayed and have no listener.  In all other cases it fails without changes.
 
 hop_at_once(Id, Here, Host, Hole, Goals, Next) :-
-    host_passage(Here, Host, From, To, Since),
+    host_passage(Here, Host, There, Places, Passage),
     \+ event_subscribed(hops),
     agent_sets_out(Id, Here, Module, Hash, Life, Hops, Until0),
     !,
     agent_state_mobile(Module, Until0, Until, free),
     mobile_term(Life-Goals),
-    Going = going(Module, Hash, Life, Until, Since, free),
-    sig_atomic(passed(Id, From, To, Going, Hole-Goals, Hops, Next)).
+    Going = going(Module, Hash, Life, Until),
+    sig_atomic(passed(Id, Here-There, Places-Passage, Going, Hole-Goals, Hops,
+                      Next)).
+
+passed(Id, Here-(Name-Address), Way, Going, Held, Hops, Next) :-
+    with_agent(Id, pass(Id, Here-Name, Way, Going, Held, Next, Seconds)),
+    arrival_finish_safely(Id, Here-Name, Address, Hops, Seconds, Next).
+
+%   pass(+Id, +Hosts, +Way, +Going, +Held, -Next, -Seconds) is semidet: if there
+%   is capacity.  In all other cases it fails without changes.
+
+pass(Id, Here-Name, (Place0-Place)-Passage, going(Module, Hash, Life, Until),
+     Hole-Goals, Next, Seconds) :-
+    agent_here(Id, Here, Module, _, _),
+    \+ agent_rests(Id, _, _),           % it runs
+    agent_links(Module, Place0, Place, Links),
+    host_passes(Passage, Seconds),
+    !,
+    agent_relink(Module, Links),
+    ignore(Hole = true),
+    agent_passes(Id, Name, Module, Hash, Life, Until),
+    (   schedule_stays(Here, Name)
+    ->  Next = elsewhere(Name, Module, Goals)
+    ;   Next = stop,
+        agent_put(Id, ready, Goals)
+    ).
 
 %!  hop_within(+Id, +Name, +Hole, +Goals, +Since, -Next) is det.
 %
@@ -473,46 +495,10 @@ hop_within(Id, Name, Hole, Goals, Since, Next) :-
     agent_state_mobile(Module, Until0, Until, Bound),
     mobile_term(Life-Goals),
     Going = going(Module, Hash, Life, Until, Since, Bound),
-    (   Bound == free,
-        host_plain(Here, _, From),
-        host_plain(Name, _, To),
-        sig_atomic(passed(Id, Here-From, Name-To, Going, Hole-Goals, Hops,
-                          Next0))
-    ->  Next = Next0
-    ;   gate(Name, going-entrant(Id, Hash, Life, module(Module), []),
-             moved(Id, Here-Name, Going, Hole-Goals, Hops, Next),
-             Verdict),
-        conclude(Verdict, Id, Here-Name, Hops, Next)
-    ).
+    gate(Name, going-entrant(Id, Hash, Life, module(Module), []),
+         moved(Id, Here-Name, Going, Hole-Goals, Hops, Next), Verdict),
+    conclude(Verdict, Id, Here-Name, Hops, Next).
 hop_within(_, _, _, _, _, stop).        % it was ended
-
-%   passed(+Id, +From, +To, +Going, +Held, +Hops, -Next) is semidet: for plain
-%   hosts, and if there is capacity.  In all other cases it fails without
-%   changes.
-
-passed(Id, From, To, Going, Held, Hops, Next) :-
-    with_agent(Id, pass(Id, From, To, Going, Held, Next, Seconds)),
-    From = Here-_,
-    To = Name-plain(Address, _, _, _, _, _, _, _, _),
-    arrival_finish_safely(Id, Here-Name, Address, Hops, Seconds, Next).
-
-pass(Id, From, To, going(Module, Hash, Life, Until, Since, _), Hole-Goals,
-     Next, Seconds) :-
-    From = Here-plain(_, Place0, _, _, _, _, _, _, _),
-    To = Name-plain(_, Place, _, _, _, _, _, _, _),
-    agent_here(Id, Here, Module, _, _),
-    \+ agent_rests(Id, _, _),           % it runs
-    agent_links(Module, Place0, Place, Links),
-    host_passes(From, To, Since, Seconds),
-    !,
-    agent_relink(Module, Links),
-    ignore(Hole = true),
-    agent_passes(Id, Name, Module, Hash, Life, Until),
-    (   schedule_stays(Here, Name)
-    ->  Next = elsewhere(Name, Module, Goals)
-    ;   Next = stop,
-        agent_put(Id, ready, Goals)
-    ).
 
 conclude(ok, _, _, _, _).
 conclude(ended, _, _, _, stop).

@@ -19,7 +19,7 @@
 The predicates are those of the table control_use/2.  A test that fails names
 the predicates that its part of the library, or a document, does not know.
 
-*Threading*: none.
+*Threading*: one test at a time.
 */
 
 indicator(Head, Name/Arity) :-
