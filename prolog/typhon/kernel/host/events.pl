@@ -9,7 +9,7 @@
           ]).
 :- use_module(library(error), []).
 :- use_module(library(lists), [member/2]).
-:- use_module('../base/error_text', [print_error/2]).
+:- use_module('../base/reports', [report/4]).
 
 /** <module> Events, and their listeners
 
@@ -121,7 +121,8 @@ listener(Kind, _, Agent, log) :-
 notify(Listener, Host, Agent, What) :-
     catch(ignore(handle_event(Listener, Host, Agent, What)),
           error(Formal, Context),
-          print_error(warning, error(Formal, Context))).
+          report(warning, errors_of_listeners, Host,
+                 typhon(raised(error(Formal, Context))))).
 
 %!  events_subscribe(+Kinds:list, +Key, +Listener) is det.
 %

@@ -114,7 +114,8 @@ report_end(last(Host, Hops, Status, _, Results, _), Id, Outcome) :-
 
 warn_if_in_doubt(transit(Address, _), Id) :-
     !,
-    print_message(warning, typhon(ended_in_doubt(Id, Address))).
+    report(warning, agents_ended_in_doubt, Id,
+           typhon(ended_in_doubt(Id, Address))).
 warn_if_in_doubt(_, _).
 
                 /*******************************

@@ -323,7 +323,7 @@ conclude(lost(Why), _, turn(Id, _, _), stop) :-
 conclude(over(What), _, turn(Id, _, _), stop) :-
     ends_over(Id, raised(error(resource_error(What), _))).
 conclude(ends(What), _, turn(Id, _, _), stop) :-
-    print_message(warning, typhon(exhausted(Id, What))),
+    report(warning, agents_exhausted, Id, typhon(exhausted(Id, What))),
     ignore(agent_end(Id, raised(error(resource_error(What), _)))).
 conclude(raised(Error), Goals0, turn(Id, _, _), stop) :-
     agent_fails(Id, raised(Error), Goals0).

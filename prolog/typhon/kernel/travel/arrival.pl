@@ -1,7 +1,7 @@
 :- module(typhon_arrival, []).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [append/3]).
-:- use_module('../base/error_text', [print_error/2]).
+:- use_module('../base/reports', [report/4]).
 :- use_module('../base/durable',
               [ crash_point/1, durable/5, durable_drop_below/3, durable_key/2,
                 durable_on/0, durable_put/4, enqueue_changes/0,
@@ -105,17 +105,20 @@ extras_missing(Image) :-
 load_and_take(Image, Hop, Peer, ReplyTo) :-
     image_life(Image, Life),
     catch(agent_extras_load(Life), error(Formal, Context),
-          print_error(error, error(Formal, Context))),
+          malformed(Peer, error(Formal, Context))),
     take(Hop, Peer, ReplyTo).
 
 arrived(Name, Image, Program, Label, Peer, Answer) :-
     catch(arrive_noted(Name, Image, Program, Label, Peer, Answer),
           error(Formal, Context),
-          ( print_error(error, error(Formal, Context)),
+          ( malformed(Peer, error(Formal, Context)),
             gate_refused(Name, from(Peer, Program, none), malformed,
                          error(Formal)),
             Answer = refused(error(Formal))
           )).
+
+malformed(Peer, Error) :-
+    report(error, malformed_agents, Peer, typhon(raised(Error))).
 
 arrive_noted(Name, Image, Program, Label, Peer, Answer) :-
     (   durable_on

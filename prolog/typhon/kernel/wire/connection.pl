@@ -186,7 +186,8 @@ missed(Address, Formal) :-
     ->  peer_gone(Address)
     ;   Formal = permission_error(authenticate, peer, Why),
         ( Why = version(_) ; Why == other ; refusal_text(Why, _) )
-    ->  print_message(warning, typhon(endpoint, foreign(Address, Formal)))
+    ->  report(warning, foreign_processes, Address,
+               typhon(endpoint, foreign(Address, Formal)))
     ;   true
     ),
     thread_self(Me),

@@ -53,7 +53,7 @@ flushes are for any thread that may wait.
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/fifo', [fifo_send/2]).
 :- use_module('../base/durable', [commit_changes/0]).
-:- use_module('../base/error_text', [print_error/2]).
+:- use_module('../base/reports', [report/4]).
 :- use_module('../base/monotonic', [monotonic_time/1, wait_before/2]).
 :- use_module(connection, [outgoing/2]).
 :- use_module(peer_cache, [peer_expected/1, peer_gone/1, peer_missed/2]).
@@ -598,8 +598,9 @@ not_sent(session_closed, _, Address, OnAnswer) :-
     !,
     \+ peer_expected(Address),
     request_answer(unreachable, OnAnswer).
-not_sent(Formal, Context, _, OnAnswer) :-
-    print_error(error, error(Formal, Context)),
+not_sent(Formal, Context, Address, OnAnswer) :-
+    report(error, unsent_requests, Address,
+           typhon(raised(error(Formal, Context)))),
     request_answer(unreachable, OnAnswer).
 
 %   waiting_missed(?Address, +Start): Address cannot be reached: report that to

@@ -40,7 +40,7 @@ it is answered once.
 */
 
 :- use_module(library(lists), [member/2]).
-:- use_module('../base/error_text', [error_lines/3, print_error/2]).
+:- use_module('../base/error_text', [error_lines/3]).
 :- use_module('../base/reports', [report/4]).
 :- use_module('../base/on_demand',
               [on_demand_later/1, on_demand_load/2, on_demand_part/2]).
@@ -283,7 +283,8 @@ allowed(Session, _, _, _, _, ok) :-
 allowed(_, Form, Kind, Term, Peer, Verdict) :-
     arrival_verdict(Form, Kind, Term, Peer, Verdict),
     (   Verdict == undeclared
-    ->  print_message(warning, typhon(endpoint, undeclared(Peer, Form, Kind)))
+    ->  report(warning, undeclared_terms, Peer,
+               typhon(endpoint, undeclared(Peer, Form, Kind)))
     ;   true
     ).
 
@@ -386,7 +387,8 @@ endpoint_later(Goal) :-
 load_and_take(Hook) :-
     functor(Hook, Seam, _),
     arg(1, Hook, Kind),
-    (   catch(on_demand_load(Seam, Kind), Error, print_error(error, Error)),
+    (   catch(on_demand_load(Seam, Kind), Error,
+              report(error, errors_of_hooks, Kind, typhon(raised(Error)))),
         var(Error),
         attempt(typhon_endpoint:Hook, Kind, fail)
     ->  true

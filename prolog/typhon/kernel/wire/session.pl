@@ -97,6 +97,7 @@ has no pusher, only held posts wait.
 :- use_module('../base/durable',
               [durable_on/0, flush_sends/0, send_after_commit/2]).
 :- use_module('../base/error_text', [print_error/2]).
+:- use_module('../base/reports', [report/4]).
 :- use_module('../base/monotonic', [monotonic_time/1]).
 :- use_module(frame,
               [ bundle_fits/1, bytes_term/3, count_ahead/3, frame_write/3,
@@ -335,7 +336,8 @@ call_hook(Hook) :-
           Problem = error(Formal, Context)),
     (   Problem == none
     ->  true
-    ;   print_message(error, typhon(endpoint, hook(connection, Problem)))
+    ;   report(error, errors_of_hooks, connection,
+               typhon(endpoint, hook(connection, Problem)))
     ).
 
 		 /*******************************

@@ -106,3 +106,38 @@ count_of(more(messages_not_understood, Groups), N) :- sum_of(Groups, N).
 
 sum_of(Groups, Sum) :-
     aggregate_all(sum(N), member(N-_, Groups), Sum).
+
+%   What a peer sends wrongly, as often as it wants.
+
+:- begin_tests(floods_of_peers).
+
+test(each_kind_is_one_message_and_a_count,
+     [forall(wrong(Kind, Goal)), Counts == [1,more(49)]]) :-
+    with_hosts([g], capturing(( forall(between(1, 50, _), once(Goal)),
+                                reports_end ), Messages)),
+    findall(Count, ( member(_-Message, Messages),
+                     wrong_count(Message, Kind, Count) ), Counts).
+
+:- end_tests(floods_of_peers).
+
+%   wrong(-Kind, -Goal): Goal handles what was sent, and Kind is reported.
+
+wrong(malformed_agents,
+      typhon_arrival:arrived(g, image(x), known, none, 'p@1.2.3.4:1', _)).
+wrong(undeclared_terms,
+      typhon_request:allowed(session(k, fast, w, o, p, i), request, bogus, x,
+                             '1.2.3.4:1', _)).
+wrong(errors_of_hooks,
+      typhon_session:call_hook(throw(error(system_error(x), _)))).
+wrong(unsent_requests,
+      typhon_connection_manager:not_sent(representation_error(frame), _,
+                                         '1.2.3.4:1', ground)).
+wrong(foreign_processes,
+      typhon_connection:missed('1.2.3.4:1',
+                               permission_error(authenticate, peer, other))).
+
+wrong_count(typhon(more(Kind, [Count-_])), Kind, more(Count)).
+wrong_count(typhon(raised(error(_, _))), _, 1).
+wrong_count(typhon(endpoint, What), _, 1) :-
+    functor(What, Name, _),
+    memberchk(Name, [undeclared,hook,foreign]).
