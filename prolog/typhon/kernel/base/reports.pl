@@ -114,13 +114,8 @@ reports_end :-
 :- at_halt(reports_end).
 
 conclude_all(Now, Grace) :-
-    forall(( burst(Kind, Until), is_over(Until, Now, Grace) ),
+    forall(( burst(Kind, Until), Until+Grace =< Now ),
            conclude(Kind, Until, Now)).
-
-is_over(_, inf, _) :-
-    !.
-is_over(Until, Now, Grace) :-
-    Until+Grace =< Now.
 
 conclude(Kind, Until, Now) :-
     locked(taken(Kind, Until, Tallies)),

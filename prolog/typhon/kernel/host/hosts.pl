@@ -13,7 +13,8 @@
             host_leave/1,               % +Name
             host_load/2,                % +Name, -Load
             host_hop_times/3,           % +Name, ?Direction, -Times
-            host_hop/3,                 % +Name, +Direction, +Seconds
+            host_hop/4,                 % +Name, +Direction, +Since, -Seconds
+            host_moved/4,               % +Here, +Name, +Since, -Seconds
             host_landing/4,             % +Name, -Address, -Place, -Landing
             host_came/2,                % +Landing, +Since
             host_plain_leaves/2,        % +Name, -Since
@@ -106,8 +107,7 @@ begin_admitting(Name) :-
 
 %   host_plain(+Host, ?Name, -Plain): Host is Name or its address.  The host
 %   admits agents, has no parts, and asks for no token, so the kernel alone
-%   handles its hops.  Plain is one fact with all that a hop needs of it, known
-%   to this module alone.
+%   handles its hops.  Plain is all that a hop needs of it.
 
 note_plain(Name) :-
     (   \+ parts(_, Name, _),
@@ -140,13 +140,9 @@ host_plain_leaves(Name, Since) :-
 
 %!  host_passage(+Here, +Host, -There, -Places, -Passage) is semidet.
 %
-%   A hop from Here to Host, another host of this process, begins.  There is its
-%   Name-Address, and Places are those of both, Place0-Place.  Fails if a host is
-%   not plain, or Here delays hops.
-%
-%   @arg Passage is for host_passes/2
-
-%   The time is `now` where none passes.
+%   A hop from Here to Host, another host of this process, begins; host_passes/2
+%   counts it.  There is Name-Address of Host, and Places are those of both.
+%   Fails if a host is not plain, or Here delays hops.
 
 host_passage(Here, Host, Name-Address, Place0-Place,
              passage(Here, From, Name, To, Since)) :-
@@ -156,7 +152,7 @@ host_passage(Here, Host, Name-Address, Place0-Place,
     host_plain(Host, Name, To),
     Name \== Here,
     To = plain(Address, Place, _, _, _, _, _, _, _),
-    (   time_flag(_)
+    (   time_flag(_)                    % no time passes
     ->  Since = now
     ;   monotonic_time(Now),
         Since is (Now-Epoch)*Rate
@@ -381,12 +377,22 @@ host_left(Name, Since) :-
     Seconds is max(0.0, (Now-Epoch)*Rate-Since),
     with_mutex(typhon_host_flags, left(Load, Out, Seconds)).
 host_left(Name, Since) :-
-    (   host_time(Name, Now)
-    ->  Seconds is max(0.0, Now-Since),
-        host_hop(Name, out, Seconds),
-        host_leave(Name)
-    ;   true                            % stopped meanwhile
-    ).
+    ignore(host_hop(Name, out, Since, _)),
+    host_leave(Name).
+
+%!  host_moved(+Here, +Name, +Since, -Seconds:float) is det.
+%
+%   Count a hop within this process, of an agent that is counted on Name already.
+%   A host may have been stopped meanwhile; one that stops waits for the last step.
+
+host_moved(Here, Name, Since, Seconds) :-
+    (   ( host_time(Here, Now) ; host_time(Name, Now) )
+    ->  Seconds is max(0.0, Now-Since)
+    ;   Seconds = 0.0
+    ),
+    hop_count(Here, out, Seconds),
+    hop_count(Name, in, Seconds),
+    host_leave(Here).
 
 %!  host_passes(+Passage, -Seconds:float) is semidet.
 %
@@ -438,15 +444,20 @@ left(Load, Out, Seconds) :-
     get_flag(Load, Count0), Count is Count0-1, set_flag(Load, Count),
     hop_time_add(Out, Seconds).
 
-%!  host_hop(+Name, +Direction, +Seconds) is det.
+%!  host_hop(+Name, +Direction, +Since, -Seconds:float) is semidet.
 %
-%   Record a hop into (`in`) or out of (`out`) Name that took Seconds.
+%   Record a hop `in` or `out`.  Fails if Name was stopped meanwhile.
 
-host_hop(Name, Direction, Seconds) :-
+host_hop(Name, Direction, Since, Seconds) :-
+    host_time(Name, Now),
+    Seconds is max(0.0, Now-Since),
+    hop_count(Name, Direction, Seconds).
+
+hop_count(Name, Direction, Seconds) :-
     (   counts(Name, _, In, Out)
     ->  hop_flags(Direction, In, Out, Flags),
         with_mutex(typhon_host_flags, hop_time_add(Flags, Seconds))
-    ;   true                            % stopped meanwhile
+    ;   true
     ).
 
 hop_flags(in, In, _, In).
@@ -568,11 +579,6 @@ host_link_cost(Name, Address, Cost) :-
     ;   Cost = 1
     ).
 
-%   host_linked(?Address): A host of this process is linked with Address.
-
-host_linked(Address) :-
-    neighbour(_, Address).
-
 %!  host_neighbours(+Name, -Addresses:list(atom)) is det.
 
 host_neighbours(Name, Addresses) :-
@@ -598,7 +604,7 @@ once_each([], []).
 typhon_names:known(host, Name) :-
     host(Name, _, _).
 typhon_names:known(host, Address) :-
-    host_linked(Address),
+    neighbour(_, Address),
     \+ host(_, Address, _).
 
 %!  address_parts(?Address, ?Name, ?Endpoint) is semidet.
@@ -679,8 +685,7 @@ the_only([Address|Addresses], Name, _) :-
 
 host_address(Host, Address) :-
     host_resolve(Host, Where),
-    where_address(Where, Address).
-
-where_address(local(Name), Address) :-
-    host(Name, Address, _).
-where_address(remote(Address, _, _), Address).
+    (   Where = local(Name)
+    ->  host(Name, Address, _)
+    ;   arg(1, Where, Address)
+    ).

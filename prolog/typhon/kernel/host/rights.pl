@@ -4,7 +4,6 @@
             security_event/2,           % +Host, +What
             security_event/3            % +Host, +Peer, +What
           ]).
-:- use_module(library(apply), [maplist/2]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../wire',
@@ -59,7 +58,7 @@ typhon_kinds:peer_permitted(Right, Scope, Term, Peer) :-
     ;   Scope == some
     ->  member(Host, Hosts),
         permitted(Peer, Host, Right)
-    ;   maplist(peer_has(Peer, Right), Hosts)
+    ;   forall(member(Host, Hosts), peer_may(Peer, Host, Right))
     ),
     !,
     (   Audit == none
@@ -82,9 +81,6 @@ refused_everywhere(Right, Peer) :-
 
 parent_secret(Secret) :-
     assertz(secret(Secret)).
-
-peer_has(Peer, Right, Host) :-
-    peer_may(Peer, Host, Right).
 
 scope_hosts(host(Name), Hosts) :-
     findall(Name, host(Name, _, _), Hosts).
@@ -143,12 +139,12 @@ proof_may(Proof, Host, Right) :-
 proof_may(Proof, _, Right) :-
     by_default(Proof, Right).
 
+by_default(_, Right) :-
+    right(Right, any, _),
+    !.
 by_default(Proof, Right) :-
-    right(Right, Needs, _),
-    (   Needs == any
-    ->  true
-    ;   endpoint_own_proof(Proof)
-    ),
+    right(Right, secret, _),
+    endpoint_own_proof(Proof),
     !.
 
 %   A peer that may not run goals here must not be able to end the process by a

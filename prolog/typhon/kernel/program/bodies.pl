@@ -148,12 +148,11 @@ control(Head) :-
 %
 %   The control predicates.  Use is
 %
-%   | called(Det)           | programs call it; Det is `det` or `semidet`     |
-%   | waits(Written, Until) | an agent that waits goes on with Head, until    |
-%   |                       | the host time Until; its program has Written    |
-%   | restored(Written)     | the same, only in restore points of old         |
-%   |                       | versions                                        |
-%   | kernel                | the kernel alone makes it                       |
+%   | called(Det)           | programs call it; Det is `det` or `semidet`      |
+%   | waits(Written, Until) | Written becomes it while the agent waits, until  |
+%   |                       | the host time Until                              |
+%   | restored(Written)     | the same, in old restore points                  |
+%   | kernel                | the kernel alone makes it                        |
 
 control_use(move(_), called(det)).
 control_use(clone(_), called(det)).
@@ -179,8 +178,7 @@ control_written(Head, Written) :-
 
 %!  control_of_system(?Head) is nondet.
 %
-%   Prolog has a predicate of this name, too, which does not stop the agent but
-%   occupies its thread.
+%   Prolog has a predicate of this name, too, which occupies the thread.
 
 control_of_system(Head) :-
     control_use(Head, called(_)),
@@ -190,22 +188,17 @@ control_of_system(Head) :-
 %
 %   Kind is `control`, `call` (call/N), or `checked` (see typhon_checked).
 
-term_expansion(specials(Kinds), Specials) :-
-    findall(special(Goal, Kind),
-            ( member(Kind, Kinds), special_goal(Kind, Goal) ), Specials).
+term_expansion(specials, Specials) :-
+    findall(special(Goal, Kind), special_goal(Kind, Goal), Specials).
 
 special_goal(control, Goal) :-
-    control_use(Control, _),
-    functor(Control, Name, Arity),
+    control_use(Goal, _).
+special_goal(Kind, Goal) :-
+    member(Kind-Name, [call-call, checked-'$checked']),
+    between(1, 16, Arity),
     functor(Goal, Name, Arity).
-special_goal(call, Goal) :-
-    between(1, 16, Arity),
-    functor(Goal, call, Arity).
-special_goal(checked, Goal) :-
-    between(1, 16, Arity),
-    functor(Goal, '$checked', Arity).
 
-specials([control, call, checked]).
+specials.
 
 %!  clause_parts(+Clause, -Head, -Body) is det.
 %

@@ -12,7 +12,7 @@
               [ endpoint_afterwards/1, endpoint_later/1, endpoint_reply/2,
                 endpoint_reply_later/2 ]).
 :- use_module('../host',
-              [ event/4, host/3, host_hop/3, host_time/2, schedule/2,
+              [ event/4, host/3, host_hop/4, schedule/2,
                 schedule_adopt/1, schedule_here/3, time_leave/0 ]).
 :- use_module('../agent',
               [ agent/5, agent_extras_load/1, agent_extras_missing/1,
@@ -265,10 +265,8 @@ report_arrival(Name, Address, label(Id, Hops, Since, From), Peer) :-
     debug(typhon(hop), '~w hop ~D: is on ~w, from ~w',
           [Id, Hops, Address, Peer]),
     agent_arrived(Id, Address, Hops, Peer),
-    (   host_time(Name, Now)
-    ->  Seconds is max(0.0, Now-Since),
-        host_hop(Name, in, Seconds),
-        came_from(From, Peer, Where),
+    (   host_hop(Name, in, Since, Seconds)
+    ->  came_from(From, Peer, Where),
         event(hops, Name, Id, arrived(Where, Seconds))
     ;   true                            % the host is being stopped
     ).

@@ -66,8 +66,8 @@ agent; answers and taken_over/4 in the threads of the endpoint, which never wait
 :- use_module('../base/error_text', [print_error/2]).
 :- use_module('../host',
               [ address_parts/3, amended/5, event/4, event_subscribed/1,
-                host/3, host_came/2, host_hop/3, host_landing/4, host_leave/1,
-                host_left/2, host_passage/5, host_passes/2,
+                host/3, host_came/2, host_landing/4, host_left/2,
+                host_moved/4, host_passage/5, host_passes/2,
                 host_plain_leaves/2, host_time/2, parts/3, real_time/3,
                 schedule/2, schedule_here/3, schedule_stays/2,
                 scheduler_call/1 ]).
@@ -229,9 +229,6 @@ not_sent(Formal, Transfer) :-
 %   Send the agent once more.
 
 typhon_transfer:again(Transfer) :-
-    again(Transfer).
-
-again(Transfer) :-
     (   transfer_image(Transfer, Image)
     ->  send(Transfer, Image)
     ;   transfer_stays(Transfer, given_up)
@@ -246,7 +243,7 @@ again(Transfer) :-
 
 result(unsent, Transfer) :-
     !,
-    again(Transfer).
+    typhon_transfer:again(Transfer).
 result(lost, Transfer) :-
     !,
     answered(Transfer, lost).
@@ -551,18 +548,7 @@ move(Id, Here-Name, going(Module0, Hash, Life, Until, Since, Bound),
     ;   Next = stop,
         agent_put(Id, ready, Goals)
     ),
-    seconds(Here, Name, Since, Seconds),
-    host_hop(Here, out, Seconds),
-    host_hop(Name, in, Seconds),
-    host_leave(Here).                   % last: a host that stops waits for it
-
-%   One of the hosts may have been stopped meanwhile.
-
-seconds(Here, Name, Since, Seconds) :-
-    (   ( host_time(Here, Now) ; host_time(Name, Now) )
-    ->  Seconds is max(0.0, Now-Since)
-    ;   Seconds = 0.0
-    ).
+    host_moved(Here, Name, Since, Seconds).
 
 %   The agent has moved: errors in reporting are only printed.
 
