@@ -19,7 +19,7 @@
             host_came/2,                % +Landing, +Since
             host_plain_leaves/2,        % +Name, -Since
             host_left/2,                % +Name, +Since
-            host_passage/5,             % +Here, +Host, -Name-Address,
+            host_passage/6,             % +Here, +Host, ?Since, -Name-Address,
                                         % -Place0-Place, -Passage
             host_passes/2,              % +Passage, -Seconds
             host_neighbours/2,          % +Name, -Addresses
@@ -138,21 +138,25 @@ host_plain_leaves(Name, Since) :-
     monotonic_time(Now),
     Since is (Now-Epoch)*Rate.
 
-%!  host_passage(+Here, +Host, -There, -Places, -Passage) is semidet.
+%!  host_passage(+Here, +Host, ?Since, -There, -Places, -Passage) is semidet.
 %
-%   A hop from Here to Host, another host of this process, begins; host_passes/2
-%   counts it.  There is Name-Address of Host, and Places are those of both.
-%   Fails if a host is not plain, or Here delays hops.
+%   A hop from Here to Host, another host of this process, which began at Since,
+%   or begins now; host_passes/2 counts it.  There is Name-Address of Host, and
+%   Places are those of both.  Fails if a host is not plain, or Here delays a hop
+%   that begins now.
 
-host_passage(Here, Host, Name-Address, Place0-Place,
+host_passage(Here, Host, Since, Name-Address, Place0-Place,
              passage(Here, From, Name, To, Since)) :-
     host_plain(Here, _, From),
-    From = plain(_, Place0, none, Epoch, Rate, _, _, _, _),
+    From = plain(_, Place0, Delay, Epoch, Rate, _, _, _, _),
+    ( nonvar(Since) -> true ; Delay == none ),
     atom(Host),
     host_plain(Host, Name, To),
     Name \== Here,
     To = plain(Address, Place, _, _, _, _, _, _, _),
-    (   time_flag(_)                    % no time passes
+    (   nonvar(Since)
+    ->  true
+    ;   time_flag(_)                    % no time passes
     ->  Since = now
     ;   monotonic_time(Now),
         Since is (Now-Epoch)*Rate
@@ -396,7 +400,7 @@ host_moved(Here, Name, Since, Seconds) :-
 
 %!  host_passes(+Passage, -Seconds:float) is semidet.
 %
-%   Count the hop of host_passage/5, which took Seconds.  Fails if the other host
+%   Count the hop of host_passage/6, which took Seconds.  Fails if the other host
 %   is full, or one of them is no longer plain.
 
 host_passes(passage(Here, From, Name, To, Since), Seconds) :-

@@ -67,7 +67,7 @@ agent; answers and taken_over/4 in the threads of the endpoint, which never wait
 :- use_module('../host',
               [ address_parts/3, amended/5, event/4, event_subscribed/1,
                 host/3, host_came/2, host_landing/4, host_left/2,
-                host_moved/4, host_passage/5, host_passes/2,
+                host_moved/4, host_passage/6, host_passes/2,
                 host_plain_leaves/2, host_time/2, parts/3, real_time/3,
                 schedule/2, schedule_here/3, schedule_stays/2,
                 scheduler_call/1 ]).
@@ -443,15 +443,19 @@ go_on(Id, _, _, Goals, later) :-
 %   delayed and have no listener.  In all other cases it fails without changes.
 
 hop_at_once(Id, Here, Host, Hole, Goals, Next) :-
-    host_passage(Here, Host, There, Places, Passage),
+    host_passage(Here, Host, _, There, Places, Passage),
     \+ event_subscribed(hops),
+    hop_plain(Id, Here-There, Places-Passage, Hole-Goals, Next).
+
+%   hop_plain(+Id, +Hosts, +Way, +Held, -Next) is semidet: between plain hosts.
+
+hop_plain(Id, Here-There, Way, Hole-Goals, Next) :-
     agent_sets_out(Id, Here, Module, Hash, Life, Hops, Until0),
     !,
     agent_state_mobile(Module, Until0, Until, free),
     mobile_term(Life-Goals),
     Going = going(Module, Hash, Life, Until),
-    sig_atomic(passed(Id, Here-There, Places-Passage, Going, Hole-Goals, Hops,
-                      Next)).
+    sig_atomic(passed(Id, Here-There, Way, Going, Hole-Goals, Hops, Next)).
 
 passed(Id, Here-(Name-Address), Way, Going, Held, Hops, Next) :-
     with_agent(Id, pass(Id, Here-Name, Way, Going, Held, Next, Seconds)),
@@ -468,7 +472,7 @@ pass(Id, Here-Name, (Place0-Place)-Passage, going(Module, Hash, Life, Until),
     host_passes(Passage, Seconds),
     !,
     agent_relink(Module, Links),
-    ignore(Hole = true),
+    ( Hole = true -> true ; true ),     % no hole
     agent_passes(Id, Name, Module, Hash, Life, Until),
     (   schedule_stays(Here, Name)
     ->  Next = elsewhere(Name, Module, Goals)
@@ -485,6 +489,11 @@ pass(Id, Here-Name, (Place0-Place)-Passage, going(Module, Hash, Life, Until),
 %   @error type_error(mobile_term, Culprit)
 %   @error move_refused(Address, Reason)
 
+hop_within(Id, Name, Hole, Goals, Since, Next) :-
+    agent_here(Id, Here, _, _, _),
+    host_passage(Here, Name, Since, There, Places, Passage),
+    hop_plain(Id, Here-There, Places-Passage, Hole-Goals, Next),
+    !.
 hop_within(Id, Name, Hole, Goals, Since, Next) :-
     agent_mobile(Id, Here, Module, Hash, Life0, Until0),
     !,
@@ -561,7 +570,7 @@ arrival_finish(Id, Here-Name, Address, Hops, Seconds, Next) :-
     debug(typhon(hop), '~w hop ~D: is on ~w, of this process',
           [Id, Hops, Address]),
     agent_arrived(Id, Address, Hops, here),
-    ignore(move_over(Id, answer(arrived))),
+    ( move_over(Id, answer(arrived)) -> true ; true ),
     (   event_subscribed(hops),
         host(Here, From, _)
     ->  event(hops, Name, Id, arrived(From, Seconds))
