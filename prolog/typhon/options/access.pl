@@ -96,11 +96,11 @@ must_be_rule(Rule) :-
     ).
 
 rights(Rights) :-
-    Rights == all,
-    !.
-rights(Rights) :-
-    is_list(Rights),
-    forall(member(Right, Rights), ( ground(Right), right(Right, _, _) )).
+    (   Rights == all
+    ->  true
+    ;   is_list(Rights),
+        forall(member(Right, Rights), ( ground(Right), right(Right, _, _) ))
+    ).
 
 %   note(+File, +Host, +Peer, +Proof, +What): Proof is how Peer has proved its
 %   identity; What is that of security_event/3.

@@ -306,14 +306,12 @@ has_token(Wanted, Tokens) :-
     subsumes_term(Token, Shown),        % an unbound token does not match
     !.
 
-count_entry(Capacity, Key, Answer) :-
+count_entry(Capacity, Key, ok) :-
     get_flag(Key, Load),
-    (   Load < Capacity
-    ->  Load1 is Load+1,
-        set_flag(Key, Load1),
-        Answer = ok
-    ;   Answer = refused(capacity)
-    ).
+    Load < Capacity,
+    !,
+    count(Key, 1).
+count_entry(_, _, refused(capacity)).
 
 count(Flag, Change) :-
     get_flag(Flag, Count0),
@@ -394,8 +392,8 @@ host_moved(Here, Name, Since, Seconds) :-
     ->  Seconds is max(0.0, Now-Since)
     ;   Seconds = 0.0
     ),
-    hop_count(Here, out, Seconds),
-    hop_count(Name, in, Seconds),
+    ignore(hop_count(Here, out, Seconds)),
+    ignore(hop_count(Name, in, Seconds)),
     host_leave(Here).
 
 %!  host_passes(+Passage, -Seconds:float) is semidet.
@@ -458,11 +456,9 @@ host_hop(Name, Direction, Since, Seconds) :-
     hop_count(Name, Direction, Seconds).
 
 hop_count(Name, Direction, Seconds) :-
-    (   counts(Name, _, In, Out)
-    ->  hop_flags(Direction, In, Out, Flags),
-        with_mutex(typhon_host_flags, hop_time_add(Flags, Seconds))
-    ;   true
-    ).
+    counts(Name, _, In, Out),
+    hop_flags(Direction, In, Out, Flags),
+    with_mutex(typhon_host_flags, hop_time_add(Flags, Seconds)).
 
 hop_flags(in, In, _, In).
 hop_flags(out, _, Out, Out).

@@ -292,11 +292,8 @@ cannot_depart(Hole, Id, _, error(Formal, _)) :-
     !,
     move_failed(Id, Formal).
 cannot_depart(Hole, _, Dest, Error) :-
-    where_address(Dest, Address),
-    answer_at(move(Address), throw(Error), Hole).
-
-where_address(local(Name), Name).
-where_address(remote(Address, _, _), Address).
+    arg(1, Dest, Host),
+    answer_at(move(Host), throw(Error), Hole).
 
 %!  effect_order(+Id, +Here, +Host, +Goals) is det.
 %

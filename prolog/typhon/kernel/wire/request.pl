@@ -350,16 +350,16 @@ attempt(Goal, Kind, Otherwise) :-
         ->  true
         ;   is_thread_end(Error)
         ->  throw(Error)
-        ;   report(error, errors_of_hooks, Kind,
-                   typhon(endpoint, hook(Kind, Error))),
-            fail
+        ;   hook_error(Kind, Error)
         )
     ;   call(Otherwise)
     ->  true
-    ;   report(error, errors_of_hooks, Kind,
-               typhon(endpoint, hook(Kind, failed))),
-        fail
+    ;   hook_error(Kind, failed)
     ).
+
+hook_error(Kind, Problem) :-
+    report(error, errors_of_hooks, Kind, typhon(endpoint, hook(Kind, Problem))),
+    fail.
 
 %   taken_later(+Hook) is semidet: Hook is defined by code that was not loaded, at
 %   least when the hook was called. A worker loads the code and calls the hook.
