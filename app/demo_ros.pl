@@ -6,7 +6,7 @@
 :- use_module('../prolog/typhon/kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../prolog/typhon').
 :- use_module('../prolog/typhon/bridges/helper', [helper_file/2]).
-:- use_module('../prolog/typhon/kernel/base/json', [json_text/2]).
+:- use_module('../prolog/typhon/bridges/json', [json_text/2]).
 :- use_module('../prolog/typhon/bridges/ros/connection', [node_python/2]).
 :- use_module('../agents/allocation/operator').
 :- use_module(library(apply), [maplist/2, maplist/4]).

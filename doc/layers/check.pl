@@ -73,7 +73,7 @@ problem(other_json(File, Library)) :-
     of_program(File),
     import(File, library(Library), _),
     memberchk(Library, [json,http/json,http/http_json]),
-    \+ inside('prolog/typhon/kernel/base/json.pl', File).
+    \+ inside('prolog/typhon/bridges/json.pl', File).
 problem(stray_comment_end(File)) :-
     size(File, '*/'/0, _, _).
 problem(Problem) :-
@@ -284,7 +284,7 @@ says(time_of_day(F, wait), '~w: waits by the time of day, see \c
 says(time_of_day(F, N), '~w: uses ~w, which goes by the time of day, see \c
      kernel/base/monotonic.pl', [F, N]) :-
     N \== wait.
-says(other_json(F, L), '~w: imports library(~w), see kernel/base/json.pl',
+says(other_json(F, L), '~w: imports library(~w), see bridges/json.pl',
      [F, L]).
 says(stray_comment_end(F), '~w: a stray */ makes the next directive a clause',
      [F]).

@@ -303,7 +303,8 @@ reach(Part, Module, Name/Arity) :-
 %   The folders below prolog/typhon that are layers, the lowest first: a layer
 %   imports from layers before it.
 
-layers([ 'kernel/base', 'bridges/helper', 'bridges/nxt', 'kernel/program',
+layers([ 'kernel/base', 'bridges/json', 'bridges/helper', 'bridges/nxt',
+         'kernel/program',
          'language/chunks', language, 'kernel/wire', 'kernel/host', 'kernel/agent', 'kernel/travel',
          'kernel/lifecycle', 'kernel/vocabulary',
          'tools/administration', 'tools/checks', 'tools/source_view',

@@ -4,7 +4,7 @@
 :- use_module(library(apply), [maplist/3, maplist/4]).
 :- use_module(library(csv), [csv_write_file/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module('../../prolog/typhon/kernel/base/json',
+:- use_module('../../prolog/typhon/bridges/json',
               [json_text/2, json_value/1]).
 :- use_module(library(lists), [append/2, append/3, member/2]).
 :- use_module(library(pairs), [pairs_keys_values/3]).

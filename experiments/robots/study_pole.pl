@@ -5,7 +5,7 @@
               [ agent_create/3, agent_join/3, agent_send/2,
                 network_property/2 ]).
 :- use_module('../../agents/sync/operator', [sequence_start/5]).
-:- use_module('../../prolog/typhon/kernel/base/json', [json_dict/2]).
+:- use_module('../../prolog/typhon/bridges/json', [json_dict/2]).
 :- use_module('../../prolog/typhon/kernel/program/paths', []).
 :- use_module('../sync/metrics',
               [ executions/2, from_start/2, idle_time/2, marks/3,

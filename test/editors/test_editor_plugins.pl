@@ -13,7 +13,7 @@
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/kernel/base/json), [json_dict/2]).
+:- use_module(library(typhon/bridges/json), [json_dict/2]).
 :- use_module(library(typhon/kernel/program),
               [payload_load/2, program_load/6, vocabulary_word/2]).
 

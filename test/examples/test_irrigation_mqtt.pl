@@ -10,7 +10,7 @@
 :- use_module('../lib/brokers').
 :- use_module('../lib/fixtures').
 :- use_module(library(debug), [assertion/1]).
-:- use_module(library(typhon/kernel/base/json), [json_dict/2]).
+:- use_module(library(typhon/bridges/json), [json_dict/2]).
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
 

@@ -14,7 +14,7 @@
 :- use_module(library(http/thread_httpd)).
 :- use_module(library(http/websocket)).
 :- use_module(library(lists), [member/2, memberchk/2, reverse/2]).
-:- use_module('../../prolog/typhon/kernel/base/json',
+:- use_module('../../prolog/typhon/bridges/json',
               [json_dict/2, json_text/2]).
 
 /** <module> A stand-in for rosbridge_server

@@ -3,7 +3,7 @@
             rosbridge_publish/2,        % +Topic, +Message
             rosbridge_stop/1            % +Port
           ]).
-:- use_module('../../../prolog/typhon/kernel/base/json',
+:- use_module('../../../prolog/typhon/bridges/json',
               [json_dict/2, json_text/2]).
 :- use_module(library(http/http_stream), []).
 :- use_module(library(http/thread_httpd),

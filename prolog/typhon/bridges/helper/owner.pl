@@ -7,7 +7,7 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
-:- use_module('../../kernel/base/json', [json_text/2]).
+:- use_module('../json', [json_text/2]).
 :- use_module('../../kernel/base/server', [server_answer/2, server_self/1]).
 :- use_module(process,
               [ process_begin/5, process_end/1, process_kill_of/1,

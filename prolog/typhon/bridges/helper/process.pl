@@ -16,7 +16,7 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
-:- use_module('../../kernel/base/json', [json_dict/2]).
+:- use_module('../json', [json_dict/2]).
 :- use_module('../../kernel/base/server', [server_cast/2]).
 :- use_module('../../kernel/base/prolog_faults', [spawn/3]).
 

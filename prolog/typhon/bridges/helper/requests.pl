@@ -11,7 +11,7 @@
 :- use_module(library(error), [existence_error/2, permission_error/3]).
 :- use_module(library(option), [option/3]).
 :- use_module('../../kernel/base/fifo', [fifo_send/2]).
-:- use_module('../../kernel/base/json', [json_text/2]).
+:- use_module('../json', [json_text/2]).
 :- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
 :- use_module('../../kernel/base/server',
               [server_call/4, server_cast/2, server_start/4, server_stop/1]).

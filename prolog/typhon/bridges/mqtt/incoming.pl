@@ -12,7 +12,7 @@
               [ uri_authority_components/2, uri_authority_data/3,
                 uri_components/2, uri_data/3, uri_encoded/3 ]).
 :- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
-:- use_module('../../kernel/base/json', [json_dict/2, json_text/2]).
+:- use_module('../json', [json_dict/2, json_text/2]).
 :- use_module('../common',
               [ subscribers_drop/4, subscribers_notify/5,
                 subscribers_notify_new/5, subscription/3 ]).

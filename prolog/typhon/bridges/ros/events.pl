@@ -4,7 +4,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module('../../kernel/agent',
               [agent/5, agent_mail/2, mail_count/2, with_agent/2]).
-:- use_module('../../kernel/base/json', [json_dict/2]).
+:- use_module('../json', [json_dict/2]).
 :- use_module('../common',
               [ service/2, subscribers_notify/5, subscription/3,
                 unsubscribe/4 ]).

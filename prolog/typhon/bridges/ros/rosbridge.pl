@@ -15,7 +15,7 @@
 :- use_module('../../kernel/base/monotonic',
               [ monotonic_time/1, poll_within/2, wait_within/2 ]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
-:- use_module('../../kernel/base/json', [json_text/2]).
+:- use_module('../json', [json_text/2]).
 :- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
 
 /** <module> The connection to a rosbridge server

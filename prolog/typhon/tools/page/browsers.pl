@@ -11,7 +11,7 @@
 :- use_module('../../kernel/base/fifo', [fifo_send/2]).
 :- use_module('../../kernel/base/monotonic', [monotonic_time/1, poll_within/2]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
-:- use_module('../../kernel/base/json', [json_text/2]).
+:- use_module('../../bridges/json', [json_text/2]).
 :- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
 :- use_module('../../kernel/base/server',
               [server_cast/2, server_start/5, server_stop/1]).

@@ -11,7 +11,7 @@
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(sgml), [xml_quote_cdata/3]).
 :- use_module(library(sha), [sha_hash/3]).
-:- use_module('../../kernel/base/json', [json_text/2]).
+:- use_module('../../bridges/json', [json_text/2]).
 :- use_module('../../kernel/base/private', [output_file/2]).
 :- use_module('../../network', [log_events/2]).
 :- use_module('../../tools', [own_event/1]).

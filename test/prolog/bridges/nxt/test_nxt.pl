@@ -11,7 +11,7 @@ LEGO's document, by other code than that of the bridge.
 :- use_module('../../../lib/nxt_fixtures').
 :- use_module(library(plunit)).
 :- use_module(library(apply), [foldl/4, maplist/3]).
-:- use_module(library(typhon/kernel/base/json), [json_dict/2]).
+:- use_module(library(typhon/bridges/json), [json_dict/2]).
 :- use_module(library(lists), [append/2, append/3, member/2]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).

@@ -5,12 +5,12 @@
 The cases are those on which public readers of JSON differ.
 */
 
-:- use_module('../../../lib/common').
+:- use_module('../../lib/common').
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(plunit)).
 :- use_module(library(random), [random_between/3, random_member/2]).
-:- use_module(library(typhon/kernel/base/json), [json_dict/2, json_text/2]).
+:- use_module(library(typhon/bridges/json), [json_dict/2, json_text/2]).
 
 :- begin_tests(json).
 
