@@ -29,14 +29,13 @@ a folder, with an interface of the same name beside it:
 :- use_module(typhon/tools/user_errors, [user_errors/1]).
 :- reexport(typhon/tools/administration,
             [ host_change/2, host_property/2, link/2, link/3, unlink/2,
-              agent_change/2, agent_property/2, agent_save/2, agent_load/2,
-              agent_load/3 ]).
+              remote/2, agent_change/2, agent_property/2, agent_save/2,
+              agent_load/2, agent_load/3 ]).
 :- reexport(typhon/tools/checks, [agent_check/1, agent_check/2]).
 :- reexport(typhon/tools/source_view, [agent_listing/1]).
 :- reexport(typhon/options/watch, [watch/3, unwatch/1]).
 :- reexport(typhon/kernel/host,
-            [ host_start/1, host_start/2, host_stop/1, remote/2
-            ]).
+            [ host_start/1, host_start/2, host_stop/1 ]).
 :- reexport(typhon/kernel/lifecycle,
             [ agent_create/2, agent_create/3, agent_send/2,
               agent_move/2, agent_move/3, agent_clone/2, agent_resume/1,

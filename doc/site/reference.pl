@@ -65,8 +65,8 @@ task(agents, "Call agents by pheromones",
 task(library, "Start, change and stop hosts",
      [typhon_hosting, typhon_administration:[host_change/2]]).
 task(library, "Link hosts, and ask them",
-     [ typhon_administration:[host_property/2, link/2, link/3, unlink/2],
-       typhon_remote ]).
+     [ typhon_administration:[host_property/2, link/2, link/3, unlink/2,
+                              remote/2] ]).
 task(library, "Start networks, and read their logs", [typhon_network]).
 task(library, "Check programs", [typhon_checks]).
 task(library, "Create agents", [typhon_creation]).

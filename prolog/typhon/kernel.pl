@@ -17,12 +17,11 @@ a Prolog with threads it is library(typhon) without its top level.
 :- use_module(tools/user_errors, [user_errors/1]).
 :- reexport(tools/administration,
             [ host_change/2, host_property/2, link/2, link/3, unlink/2,
-              agent_change/2, agent_property/2 ]).
+              remote/2, agent_change/2, agent_property/2 ]).
 :- reexport(tools/checks, [agent_check/1, agent_check/2]).
 :- reexport(tools/source_view, [agent_listing/1]).
 :- reexport(kernel/host,
-            [ host_start/1, host_start/2, host_stop/1, remote/2, agents_run/1
-            ]).
+            [ host_start/1, host_start/2, host_stop/1, agents_run/1 ]).
 :- reexport(kernel/lifecycle,
             [ agent_create/2, agent_create/3, agent_send/2,
               agent_move/2, agent_move/3, agent_clone/2, agent_resume/1,

@@ -36,9 +36,8 @@ This is the interface of the layer: higher layers import from here.
               scheduler_limited/2, work_do/2 ]).
 :- reexport(host/turns,
             [ context/3, context_agent/1, context_clear/0, context_host/1,
-              context_now/2, context_set/3, turn_later/1, turn_of/3,
-              turns_go_on/1, turns_now/3, turns_pause/0, turns_paused/0 ]).
+              context_now/2, context_set/3, in_context/2, turn_later/1,
+              turn_of/3, turns_go_on/1, turns_now/3, turns_pause/0, turns_paused/0 ]).
 :- reexport('host/runtime').
 :- reexport('host/hosting').
-:- reexport('host/remote').
 :- reexport('host/rights').

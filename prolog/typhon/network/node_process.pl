@@ -16,12 +16,13 @@
               [ arrival_permitted/4, peer_expect/1, peer_expect_no_more/1,
                 endpoint_address/1, endpoint_flush/2, endpoint_reply/2 ]).
 :- use_module('../kernel/host',
-              [ host/3, host_do/2, host_link/3, host_neighbours/2,
+              [ host/3, host_link/3, host_neighbours/2,
                 host_option/2, host_restart/2, host_start/2, host_stop/1,
                 host_unlink/2, hosts_go_on/0, hosts_rest/0, parent_secret/1,
                 runtime_acquire/2, runtime_release/1, time_again/2,
                 time_hold/1, time_let_go/1, time_state/1 ]).
 :- use_module('../tools/administration', [host_property/2]).
+:- autoload('../options/remote', [host_do/2]).
 :- use_module('../options/journal', [hosts_back/1, hosts_journal/2]).
 :- use_module('../options/snapshot',
               [ agents_at_rest/2, agents_go_on/1, process_dump/2,

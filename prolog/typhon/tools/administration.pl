@@ -4,6 +4,7 @@
             link/2,                     % +HostA, +HostB
             link/3,                     % +HostA, +HostB, +Options
             unlink/2,                   % +HostA, +HostB
+            remote/2,                   % +Host, +Goal
             agent_property/2,           % ?Agent, ?Property
             agent_change/2,             % +Agent, +Change
             status_shown/2,             % +Status, -State
@@ -11,6 +12,7 @@
             agent_load/2,               % +File, -Agent
             agent_load/3                % +File, -Agent, +Options
           ]).
+:- autoload('../options/remote', [run_remote/2]).
 :- autoload('administration/change', [change_agent/2]).
 :- autoload('administration/host_questions',
             [ change_host/2, link_hosts/2, link_hosts/3, property_of_host/2,
@@ -80,6 +82,21 @@ link(A, B, Options) :-
 
 unlink(A, B) :-
     unlink_hosts(A, B).
+
+%!  remote(+Host, +Goal) is semidet.
+%
+%   Call once(Goal) in the place of Host, in this or another process. Bindings,
+%   failure and errors are returned. An error of another process whose message
+%   would call a goal is returned as error(raised_elsewhere(Ball), _). A goal
+%   M:G runs in module M instead, and has the place only as its context.
+%   leave/1, sense/1 and take/1 work on the tuple space of Host.
+%
+%   @error permission_error(remote, host, Host) if the host refuses
+%   @error host_unreachable(Host), permission_error(authenticate, host, Host)
+%   @error connection_lost(Host): it is not known whether Goal ran
+
+remote(Host, Goal) :-
+    run_remote(Host, Goal).
 
 %!  agent_property(?Agent, ?Property) is nondet.
 %

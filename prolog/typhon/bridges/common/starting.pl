@@ -18,7 +18,8 @@
 :- use_module(library(lists), [member/2]).
 :- use_module('../../kernel/host',
               [ host/3, host_option/2, host_resolve/2, place_deliver/3,
-                place_undeliver/2, remote/2 ]).
+                place_undeliver/2 ]).
+:- use_module('../../tools/administration', [remote/2]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/base/options', [check_name/2]).
 :- use_module('../../kernel/base/own_thread', [in_own_thread/1]).

@@ -65,6 +65,7 @@ joins(received,'options/migration',[pheromone]).
 joins(recipient,'options/external_recipients',[external]).
 joins(requested,network,[log,node]).
 joins(requested,'options/directory',[directory]).
+joins(requested,'options/remote',[remote]).
 joins(requested,'options/supervision',[monitor]).
 joins(requested,'options/trace',[trace]).
 joins(requested,'options/watch',[everywhere,watch,watched]).
@@ -100,6 +101,7 @@ files('options/identity',['options/identity/authors','options/identity/birth','o
 files('options/journal',['options/journal/channel','options/journal/committing','options/journal/hop_ids','options/journal/journaled_agents','options/journal/journaled_tuples','options/journal/postgresql','options/journal/recovery','options/journal/store','options/journal/units_of_work']).
 files('options/migration',['options/migration/pheromone','options/migration/strategy']).
 files('options/quotas',['options/quotas','options/quotas/quota_agents','options/quotas/quota_enforcer','options/quotas/quota_table','options/quotas/usage']).
+files('options/remote',['options/remote']).
 files('options/single',['options/single']).
 files('options/snapshot',['options/snapshot']).
 files('options/supervision',['options/supervision/failed_processes','options/supervision/monitored_agents','options/supervision/monitors','options/supervision/relations']).

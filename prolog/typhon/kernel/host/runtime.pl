@@ -4,11 +4,12 @@
             runtime_release/1,          % +User
             process_ask/6,              % +Endpoint, +Host, +Kind, +Term,
                                         % -Answer, +Seconds
+            host_unknown/1,             % +Address
             as_guest/1,                 % :Goal
             guests_leave/0
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(error), [permission_error/3]).
+:- use_module(library(error), [existence_error/2, permission_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../base/monotonic',
@@ -28,6 +29,7 @@
                 endpoint_option/1, endpoint_start/4,
                 endpoint_start_alone/1, endpoint_stop/0,
                 transport_disagrees/1 ]).
+:- use_module(hosts, [host_resolve/2]).
 :- use_module(time,
               [ time_apart/2, time_default/1, time_kind/1, time_start/1,
                 time_stop/0 ]).
@@ -199,6 +201,24 @@ unreachable(Endpoint, Host) :-
     ;   Formal = host_unreachable(Host)
     ),
     throw(error(Formal, _)).
+
+%!  host_unknown(+Address) is failure.
+%
+%   The process of Address has no such host: raise an error that lists its
+%   hosts.
+%
+%   @error existence_error(host, Address)
+
+host_unknown(Address) :-
+    host_resolve(Address, remote(_, _, Endpoint)),
+    catch(process_ask(Endpoint, Address, hosting, hosts, Names, 10),
+          error(_, _), fail),
+    Names = [_|_],
+    atomic_list_concat(Names, ', ', Listed),
+    atom_concat('there are: ', Listed, Text),
+    throw(error(existence_error(host, Address), context(_, Text))).
+host_unknown(Address) :-
+    existence_error(host, Address).
 
 %!  as_guest(:Goal) is semidet.
 %

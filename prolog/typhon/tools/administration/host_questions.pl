@@ -17,8 +17,8 @@
               [ host/3, host_address/2, host_hop_times/3, host_link/3,
                 host_listed/2, host_load/2, host_neighbours/2, host_option/2,
                 host_put/2, host_resolve/2, host_unknown/1, host_unlink/2,
-                parts_load/1, peer_may/3, place_offer/2, process_ask/6,
-                remote/2 ]).
+                parts_load/1, peer_may/3, place_offer/2, process_ask/6 ]).
+:- use_module('../../options/remote', [run_remote/2]).
 
 /** <module> Properties, links and changes of hosts of any process
 
@@ -218,7 +218,7 @@ change_host(Host, Option) :-
 change_at(local(Name), Option) :-
     sync_after(with_mutex(typhon_hosting, change(Option, Name))).
 change_at(remote(Address, Name, _), Option) :-
-    remote(Address, typhon_administration:host_change(Name, Option)).
+    run_remote(Address, typhon_administration:host_change(Name, Option)).
 
 change(services(Services0), Name) =>
     host(Name, _, Place),

@@ -7,13 +7,13 @@
 :- use_module(library(lists), [append/3, member/2, nth1/3]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module('../../kernel/host',
-              [host/3, host_resolve/2, host_start/2, host_stop/1, remote/2]).
+              [host/3, host_resolve/2, host_start/2, host_stop/1]).
 :- use_module('../../kernel/lifecycle',
               [ agent_clone/2, agent_create/3, agent_dispose/1,
                 agent_dispose/2, agent_move/2, agent_resume/1, agent_send/2 ]).
 :- use_module('../administration',
               [ agent_load/3, agent_save/2, host_property/2, link/2, link/3,
-                unlink/2 ]).
+                remote/2, unlink/2 ]).
 :- use_module('../checks', [agent_check/1]).
 :- use_module('../../network', [network_start/3, network_stop/1]).
 :- use_module(editor,

@@ -1,18 +1,14 @@
 :- module(typhon_remote,
-          [ remote/2,                   % +Host, +Goal
-            host_do/2,                  % +Name, +Goal
-            host_unknown/1              % +Address
+          [ run_remote/2,               % +Host, +Goal
+            host_do/2                   % +Name, +Goal
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(error),
-              [existence_error/2, must_be/2, permission_error/3]).
-:- use_module('../base/error_text', [harmless_error/2]).
-:- use_module('../wire',
-              [endpoint_reply/2, mobile_term/1]).
-:- use_module(runtime, [process_ask/6]).
-:- use_module(turns, [in_context/2]).
-:- use_module(hosts, [host/3, host_option/2, host_resolve/2]).
-:- use_module(scheduler, [scheduler_call/1]).
+:- use_module(library(error), [must_be/2, permission_error/3]).
+:- use_module('../kernel/base/error_text', [harmless_error/2]).
+:- use_module('../kernel/wire', [endpoint_reply/2, mobile_term/1]).
+:- use_module('../kernel/host',
+              [ host/3, host_option/2, host_resolve/2, host_unknown/1,
+                in_context/2, process_ask/6, scheduler_call/1 ]).
 
 /** <module> Goals that other processes run on a host
 
@@ -26,19 +22,11 @@ process.
 
 :- multifile typhon_endpoint:requested/4.
 
-%!  remote(+Host, +Goal) is semidet.
+%!  run_remote(+Host, +Goal) is semidet.
 %
-%   Call once(Goal) in the place of Host, in this or another process. Bindings,
-%   failure and errors are returned. An error of another process whose message
-%   would call a goal is returned as error(raised_elsewhere(Ball), _). A goal
-%   M:G runs in module M instead, and has the place only as its context.
-%   leave/1, sense/1 and take/1 work on the tuple space of Host.
-%
-%   @error permission_error(remote, host, Host) if the host refuses
-%   @error host_unreachable(Host), permission_error(authenticate, host, Host)
-%   @error connection_lost(Host): it is not known whether Goal ran
+%   See remote/2.
 
-remote(Host, Goal) :-
+run_remote(Host, Goal) :-
     host_resolve(Host, Where),
     must_be(callable, Goal),
     once(run(Where, Goal)).
@@ -65,24 +53,6 @@ run_here(Name, Goal) :-
     ->  permission_error(remote, host, Name)
     ;   host_do(Name, Goal)
     ).
-
-%!  host_unknown(+Address) is failure.
-%
-%   The process of Address has no such host: raise an error that lists its
-%   hosts.
-%
-%   @error existence_error(host, Address)
-
-host_unknown(Address) :-
-    host_resolve(Address, remote(_, _, Endpoint)),
-    catch(process_ask(Endpoint, Address, hosting, hosts, Names, 10),
-          error(_, _), fail),
-    Names = [_|_],
-    atomic_list_concat(Names, ', ', Listed),
-    atom_concat('there are: ', Listed, Text),
-    throw(error(existence_error(host, Address), context(_, Text))).
-host_unknown(Address) :-
-    existence_error(host, Address).
 
 %!  host_do(+Name, +Goal) is semidet.
 %
