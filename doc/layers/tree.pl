@@ -304,10 +304,10 @@ reach(Part, Module, Name/Arity) :-
 %   imports from layers before it.
 
 layers([ 'kernel/base', 'bridges/json', 'bridges/helper', 'bridges/nxt',
-         'kernel/program',
-         'language/chunks', language, 'kernel/wire', 'kernel/host', 'kernel/agent', 'kernel/travel',
-         'kernel/lifecycle', 'kernel/vocabulary',
-         'options/remote', 'tools/administration', 'tools/checks', 'tools/source_view',
+         'kernel/program', 'language/chunks', language, 'kernel/wire',
+         'kernel/host', 'kernel/agent', 'kernel/travel', 'kernel/lifecycle',
+         'kernel/vocabulary', 'options/payloads', 'options/remote',
+         'tools/administration', 'tools/checks', 'tools/source_view',
          'options/migration', 'options/keys', 'options/tls',
          'options/identity', 'options/trail', 'options/journal',
          'options/single', 'options/snapshot', 'options/access',

@@ -18,9 +18,9 @@ This is the interface of the layer: higher layers import from here.
               is_life/1, life_before/2, life_clone/3, life_extras/2,
               life_hop/3, life_hops/2,
               life_may_move/2, life_parent/2, life_payloads/2, make_life/5,
-              set_extras_of_life/3, state_destroy/2 ]).
+              set_extras_of_life/3, set_payloads_of_life/3, state_destroy/2 ]).
 :- reexport(agent/agent_module,
-              [ agent_add/2, agent_clauses/3, agent_code/2,
+              [ agent_add/2, agent_clauses/3, agent_code/2, agent_declare/2,
                 agent_handles/2, agent_links/4, agent_module/4,
                 agent_module/5, agent_relink/2, agent_build/5,
                 agent_state/2, agent_state_mobile/4, agent_variant/2 ]).
@@ -29,7 +29,7 @@ This is the interface of the layer: higher layers import from here.
 :- reexport('agent/gate').
 :- reexport('agent/image').
 :- reexport('agent/fault').
-:- reexport('agent/payloads').
+:- reexport('agent/results').
 :- reexport(agent/mailbox,
             [ agent_order/2, agent_ordered/1, agent_orders/2, agent_unorder/2,
               mail_all/2, mail_back/2, mail_count/2, mail_fitting/4,

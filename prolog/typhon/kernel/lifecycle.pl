@@ -8,7 +8,7 @@ This is the interface of the layer: higher layers import from here.
 
 :- reexport(lifecycle/creation,
             [ agent_begin/4, agent_create/2, agent_create/3,
-              agent_create_by/4 ]).
+              agent_create_by/4, not_static/2 ]).
 :- reexport('lifecycle/order_client').
 :- reexport('lifecycle/disposal').
 :- reexport(lifecycle/questions,

@@ -33,7 +33,7 @@
 :- use_module(agent_module, [agent_build/5, agent_state/2]).
 :- use_module('../base/text', [is_printable/1]).
 :- use_module(identity, [agent_home/2, origin_inherited/3]).
-:- use_module(payloads, [no_result_facts/2]).
+:- use_module(results, [no_result_facts/2]).
 
 /** <module> The image of an agent, which goes over the wire
 

@@ -51,6 +51,7 @@ joins(network_load_option,network,[log]).
 joins(order,'options/identity',[attach]).
 joins(order,'options/trace',[watched]).
 joins(order,'tools/administration',[change,image]).
+joins(payload,'options/payloads',[any]).
 joins(pheromone_option,'options/migration',[period,span,strength]).
 joins(program,language,[text]).
 joins(program,'language/chunks',[runs]).
@@ -100,6 +101,7 @@ files('options/host_log',['options/host_log']).
 files('options/identity',['options/identity/authors','options/identity/birth','options/identity/sender_rights']).
 files('options/journal',['options/journal/channel','options/journal/committing','options/journal/hop_ids','options/journal/journaled_agents','options/journal/journaled_tuples','options/journal/postgresql','options/journal/recovery','options/journal/store','options/journal/units_of_work']).
 files('options/migration',['options/migration/pheromone','options/migration/strategy']).
+files('options/payloads',['options/payloads']).
 files('options/quotas',['options/quotas','options/quotas/quota_agents','options/quotas/quota_enforcer','options/quotas/quota_table','options/quotas/usage']).
 files('options/remote',['options/remote']).
 files('options/single',['options/single']).

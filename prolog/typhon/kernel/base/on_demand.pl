@@ -29,6 +29,7 @@ for these.
   | program     | read     | a program was read                          |
   | program     | runs     | a program is about to run                   |
   | fault       | location | an agent has failed, or raised an error     |
+  | payload     | any      | an agent gets, loses or delivers a payload  |
   | recipient   | external | a message is for no agent, but a bridge     |
 
 Other threads run meanwhile, and call hooks. So clauses of hooks are compiled

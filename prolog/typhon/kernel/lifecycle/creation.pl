@@ -4,7 +4,8 @@
             agent_create_by/4,          % +Parent, +Program, -Agent, +Options
             agent_begin/4,              % +Options, +Name, +Start, -Agent
             agent_clone_here/3,         % +Id, +Goals, ?CloneId
-            clone_id/2                  % +Id, -CloneId
+            clone_id/2,                 % +Id, -CloneId
+            not_static/2                % +Clauses, +PI
           ]).
 
 /** <module> Creating agents
@@ -21,10 +22,10 @@ agent.  Its description is
 other processes order.
 */
 
-:- use_module(library(apply), [foldl/4, maplist/2]).
+:- use_module(library(apply), [maplist/2]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [must_be/2, permission_error/3, type_error/2]).
-:- use_module(library(lists), [append/2, append/3, member/2]).
+:- use_module(library(lists), [append/3, member/2]).
 :- autoload(library(occurs), [sub_term/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../agent',
@@ -32,18 +33,18 @@ other processes order.
                 agent_handles/2, agent_home/2, agent_id/3, agent_mail/2,
                 agent_name/3, agent_ready/2, agent_rest/3, agent_state/2,
                 gate/4, gate_refused/4, is_life/1, life_clone/3, mail_count/2,
-                make_life/5, no_result_facts/2, not_carried/2,
-                origin_inherited/3, origin_passed/4, payload_marks/2,
-                with_agent/2 ]).
+                make_life/5, no_result_facts/2, origin_inherited/3,
+                origin_passed/4, with_agent/2 ]).
 :- use_module('../base/durable', [sync_after/1, unit_of_work/1]).
 :- use_module('../base/names', [must_be_name/2]).
+:- use_module('../base/on_demand', [on_demand_call/3]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../host',
               [ amended/5, event/4, host/3, host_address/2, host_resolve/2,
                 host_unknown/1, process_ask/6 ]).
 :- use_module('../program',
               [ clause_parts/3, code_install/3, code_locate/2, code_program/2,
-                code_sent/2, payload_load/2, program_load/6 ]).
+                code_sent/2, program_load/6 ]).
 :- use_module('../travel', [agent_born/2, clone_born/2]).
 :- use_module('../wire',
               [ endpoint_address/1, endpoint_later/1, endpoint_reply/2,
@@ -192,10 +193,17 @@ birth(Options, Declared, Initial, Clauses, Life,
     option(facts(Facts), Options, []),
     option(payloads(Specs), Options, []),
     append(Initial, Facts, StateClauses0),
-    foldl(add_payload(Clauses), Specs, []-(Declared-StateClauses0),
-          Payloads-(PIs-StateClauses)),
+    with_payloads(Specs, Clauses, []-(Declared-StateClauses0),
+                  Payloads-(PIs-StateClauses)),
     maplist(initial_fact(Clauses, PIs), Facts),
     make_life(Lifetime, Tokens, Payloads, Static, Life).
+
+with_payloads([], _, State, State) :-
+    !.
+with_payloads(Specs, Clauses, State0, State) :-
+    on_demand_call(payload, any,
+                   typhon_payloads:payloads_added(Specs, Clauses, State0,
+                                                  State)).
 
 initial_fact(Clauses, PIs, Fact) :-
     clause_parts(Fact, Head, _),
@@ -207,28 +215,16 @@ initial_fact(Clauses, PIs, Fact) :-
     ;   throw(error(existence_error(state, Name/Arity, PIs), _))
     ).
 
+%!  not_static(+Clauses, +PI) is det.
+%
+%   @error permission_error(attach, procedure, PI) if PI has a clause among
+%          Clauses, those of a program
+
 not_static(Clauses, Name/Arity) :-
     functor(General, Name, Arity),
     (   member(Clause, Clauses),
         clause_parts(Clause, General, _)
     ->  permission_error(attach, procedure, Name/Arity)
-    ;   true
-    ).
-
-add_payload(Clauses, Spec, Payloads-(PIs0-State0),
-            [Name-New|Payloads]-(PIs-State)) :-
-    payload_load(Spec, Payload),
-    Payload = payload(Name, New, More),
-    maplist(not_static(Clauses), New),
-    maplist(not_among(PIs0), New),
-    not_carried(Name, Payloads),
-    append(PIs0, New, PIs),
-    payload_marks(Payload, Marks),
-    append([State0, More, Marks], State).
-
-not_among(PIs, PI) :-
-    (   memberchk(PI, PIs)
-    ->  permission_error(attach, procedure, PI)
     ;   true
     ).
 

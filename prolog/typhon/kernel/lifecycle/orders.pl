@@ -5,12 +5,12 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error),
               [domain_error/2, permission_error/3]).
-:- use_module('../base/on_demand', [on_demand_load/2]).
+:- use_module('../base/on_demand', [on_demand_call/3, on_demand_load/2]).
 :- use_module('../host', [alarm_in/3, scheduler_call/1]).
 :- use_module('../agent',
-              [ agent/5, agent_attach/2, agent_detach/2, agent_order/2,
-                agent_ready/2, agent_status/3, agent_wakes/2, fault_stamp/2,
-                is_faulty/3, life_hops/2, with_agent/2 ]).
+              [ agent/5, agent_order/2, agent_ready/2, agent_status/3,
+                agent_wakes/2, fault_stamp/2, is_faulty/3, life_hops/2,
+                with_agent/2 ]).
 :- use_module('../travel',
               [ agent_resumed/3, move_awaited/2, move_failed/2, move_over/2,
                 out_of_touch/1 ]).
@@ -254,9 +254,10 @@ go_on(Id, Goals) :-
     ).
 
 carry_out(attach(Payload), Agent, ok) :-
-    agent_attach(Agent, Payload).
+    on_demand_call(payload, any,
+                   typhon_payloads:agent_attach(Agent, Payload)).
 carry_out(detach(Name), Agent, ok) :-
-    agent_detach(Agent, Name).
+    on_demand_call(payload, any, typhon_payloads:agent_detach(Agent, Name)).
 carry_out(question(_), _, again).
 carry_out(clone, Agent, CloneId) :-
     agent_status(Agent, _, Goals),

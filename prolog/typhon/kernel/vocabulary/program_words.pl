@@ -8,14 +8,13 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [must_be/2, permission_error/3]).
 :- use_module(library(option), [option/3]).
+:- use_module('../base/on_demand', [on_demand_call/3]).
 :- use_module('../program',
               [payload_load/2, payload_python/3, path_below/1, vocabulary/1]).
 :- use_module('../host',
               [ context/3, context_agent/1, context_host/1, host/3,
                 parts_call/3, place_deliver/3, place_undeliver/2 ]).
-:- use_module('../agent',
-              [ agent_attach/2, agent_detach/2, agent_payload/3,
-                agent_variant/2 ]).
+:- use_module('../agent', [agent_variant/2]).
 :- use_module('../lifecycle', [agent_create_by/4]).
 
 /** <module> The vocabulary of agents: creating agents, and payloads
@@ -93,7 +92,7 @@ attach(Spec) :-
     ),
     payload_load(Spec, Payload),
     parts_call(acts, Host, [Id, attach]),
-    agent_attach(Id, Payload).
+    by_payloads(agent_attach(Id, Payload)).
 
 %!  detach(+Name) is det.
 %
@@ -104,7 +103,10 @@ attach(Spec) :-
 detach(Name) :-
     must_be(atom, Name),
     context_agent(Id),
-    agent_detach(Id, Name).
+    by_payloads(agent_detach(Id, Name)).
+
+by_payloads(Goal) :-
+    on_demand_call(payload, any, typhon_payloads:Goal).
 
 %!  deliver(+Name) is det.
 %
@@ -119,7 +121,7 @@ detach(Name) :-
 deliver(Name) :-
     must_be(atom, Name),
     context_agent(Id),
-    agent_payload(Id, Name, Payload),
+    by_payloads(agent_payload(Id, Name, Payload)),
     context_host(Host),
     (   payload_python(Payload, Name, Source)
     ->  deliver_python(Host, Name, Source)

@@ -17,10 +17,11 @@ it: a payload that has changed since is refused.
 
 :- use_module(library(error), [existence_error/2, permission_error/3]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../../kernel/base/on_demand', [on_demand_call/3]).
 :- use_module('../../kernel/program', [code_unwrapped/3]).
 :- use_module('../../kernel/host', [host_option/2]).
 :- use_module('../../kernel/agent',
-              [agent_attach/2, agent_state/2, life_payloads/2]).
+              [agent_state/2, life_payloads/2]).
 :- use_module('../keys', [own_keys/1]).
 :- use_module(signatures,
               [ payload_hash/2, payload_signature/2, program_author/3,
@@ -173,4 +174,5 @@ typhon_order_client:attach_order(Payload, attach(Payload, Signature)) :-
 typhon_orders:carried_out(attach(Payload, Signature), Agent, ok) :-
     payload_hash(Payload, Hash),
     signature_keep(Hash, Signature),
-    agent_attach(Agent, Payload).
+    on_demand_call(payload, any,
+                   typhon_payloads:agent_attach(Agent, Payload)).

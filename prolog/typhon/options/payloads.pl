@@ -2,29 +2,20 @@
           [ agent_attach/2,             % +Id, +Payload
             agent_detach/2,             % +Id, +Name
             agent_payload/3,            % +Id, +Name, -Payload
-            not_carried/2,              % +Name, +Payloads
-            payload_marks/2,            % +Payload, -Marks
-            result_put/2,               % +Module, +Term
-            cloned_put/2,               % +Module, +Endpoint
-            result_facts/2,             % +Module, -Items
-            no_result_facts/2,          % +State0, -State
-            is_result_fact/1            % @Item
+            payloads_added/4            % +Specs, +Clauses, +State0, -State
           ]).
-:- use_module(library(apply), [exclude/3, maplist/2]).
-:- use_module(library(error),
-              [existence_error/2, permission_error/3, resource_error/1]).
-:- use_module(library(lists), [member/2, selectchk/3]).
-:- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../host', [host_address/2, parts/3]).
-:- use_module(agents,
-              [ agent/5, agent_put_life/2, life_payloads/2,
-                set_payloads_of_life/3 ]).
-:- use_module(identity, [with_agent/2]).
-:- use_module(agent_module,
-              [ agent_add/2, agent_clauses/3, agent_code/2, agent_declare/2,
-                agent_variant/2 ]).
+:- use_module(library(apply), [foldl/4, maplist/2]).
+:- use_module(library(error), [existence_error/2, permission_error/3]).
+:- use_module(library(lists), [append/2, append/3, member/2, selectchk/3]).
+:- use_module('../kernel/program', [payload_load/2]).
+:- use_module('../kernel/host', [host_address/2, parts/3]).
+:- use_module('../kernel/agent',
+              [ agent/5, agent_add/2, agent_clauses/3, agent_code/2,
+                agent_declare/2, agent_put_life/2, agent_variant/2,
+                life_payloads/2, set_payloads_of_life/3, with_agent/2 ]).
+:- use_module('../kernel/lifecycle', [not_static/2]).
 
-/** <module> Payloads and results of agents
+/** <module> Payloads of agents
 
 A payload is payload(Name, PIs, Clauses).  Its clauses are part of the agent's
 state, its name and predicates are noted in the agent's life.  Options may mark
@@ -32,25 +23,48 @@ it by facts in the state.  Parts of the host, see typhon_host_parts, may refuse
 a payload when it is attached or delivered; they are called with From, Payload,
 Host, -Reason: From is `new`, or module(Module) if the agent has it already.
 
-Results are facts '$legacy'(Item) in the state of an agent, so they travel with
-it.  An item is
-
-  - result(Term): the last result that the agent has given
-  - cloned(Endpoint): the agent was cloned in that process
-
-A clone starts without these facts.
-
-*Threading*: the worker that runs the agent adds; the rest as typhon_agents.
+*Threading*: the worker that runs the agent attaches; the rest as typhon_agents.
 */
 
 :- multifile
+    typhon_on_demand:joins/2,
     mark/2,                     % Payload, Mark: a fact that goes with Payload
     unmarked/2.                 % Module, Name: remove the marks of a payload
                                 % that is detached
 
-%!  payload_marks(+Payload, -Marks:list) is det.
+typhon_on_demand:joins(payload, any).
+
+%!  payloads_added(+Specs, +Clauses, +State0, -State) is det.
 %
-%   Marks are the facts in the state of an agent that go with Payload.
+%   An agent whose program has these Clauses begins with payloads.  State0 and
+%   State are Payloads-(PIs-Facts): its payloads as in life_payloads/2, and the
+%   predicates and clauses of its state.
+%
+%   @error permission_error(attach, procedure, PI)
+%   @error permission_error(attach, payload, Name)
+
+payloads_added(Specs, Clauses, State0, State) :-
+    foldl(added(Clauses), Specs, State0, State).
+
+added(Clauses, Spec, Payloads-(PIs0-State0),
+      [Name-New|Payloads]-(PIs-State)) :-
+    payload_load(Spec, Payload),
+    Payload = payload(Name, New, More),
+    maplist(not_static(Clauses), New),
+    maplist(not_among(PIs0), New),
+    not_carried(Name, Payloads),
+    append(PIs0, New, PIs),
+    payload_marks(Payload, Marks),
+    append([State0, More, Marks], State).
+
+not_among(PIs, PI) :-
+    (   memberchk(PI, PIs)
+    ->  permission_error(attach, procedure, PI)
+    ;   true
+    ).
+
+%   payload_marks(+Payload, -Marks): the facts in the state of an agent that go
+%   with Payload.
 
 payload_marks(Payload, Marks) :-
     findall(Mark, mark(Payload, Mark), Marks).
@@ -98,12 +112,6 @@ may_have(Module, PI) :-
     ->  typhon_agent_module:declares(Variant, PI)
     ;   true
     ).
-
-%!  not_carried(+Name, +Payloads:list) is det.
-%
-%   No payload among Payloads, as in life_payloads/2, has this Name.
-%
-%   @error permission_error(attach, payload, Name)
 
 not_carried(Name, Payloads) :-
     (   memberchk(Name-_, Payloads)
@@ -159,81 +167,3 @@ payload_clause(Module, PIs, (Head:-Body)) :-
     member(Name/Arity, PIs),
     functor(Head, Name, Arity),
     clause(Module:Head, Body).
-
-                /*******************************
-                *           RESULTS            *
-                *******************************/
-
-:- multifile prolog:error_message//1.
-
-:- setting(result_bytes, positive_integer, 1000000,
-           "The longest result of an agent, in bytes").
-
-%!  result_put(+Module, +Term) is det.
-%
-%   Term, which is mobile, replaces the result of the agent.
-%
-%   @error resource_error(result_bytes)
-
-result_put(Module, Term) :-
-    setting(result_bytes, Most),
-    fast_term_serialized(Term, Bytes),
-    string_length(Bytes, Length),
-    (   Length =< Most
-    ->  dynamic(Module:'$legacy'/1),
-        put_result(Module, Term)
-    ;   resource_error(result_bytes)
-    ).
-
-%   Adds the new result before it removes the old one: readers always find one.
-
-put_result(Module, Term) :-
-    Module:'$legacy'(result(_)),
-    !,
-    assertz(Module:'$legacy'(result(Term))),
-    once(retract(Module:'$legacy'(result(_)))).
-put_result(Module, Term) :-
-    assertz(Module:'$legacy'(result(Term))).
-
-%!  cloned_put(+Module, +Endpoint) is det.
-
-cloned_put(Module, Endpoint) :-
-    dynamic(Module:'$legacy'/1),
-    (   Module:'$legacy'(cloned(Endpoint))
-    ->  true
-    ;   assertz(Module:'$legacy'(cloned(Endpoint)))
-    ).
-
-%!  result_facts(+Module, -Items:list) is det.
-
-result_facts(Module, Items) :-
-    (   '$c_current_predicate'(_, Module:'$legacy'(_))
-    ->  findall(Item, Module:'$legacy'(Item), Items)
-    ;   Items = []
-    ).
-
-%!  no_result_facts(+State0, -State) is det.
-%
-%   State, as in agent_state/2, is State0 without results.
-
-no_result_facts(state(Empty, Clauses0), state(Empty, Clauses)) :-
-    exclude(of_result, Clauses0, Clauses).
-
-of_result('$legacy'(_)).
-
-%!  is_result_fact(@Item) is semidet.
-%
-%   Item has the form of a result; it may come from a peer.
-
-is_result_fact(Item) :-
-    subsumes_term(result(_), Item),
-    !.
-is_result_fact(Item) :-
-    subsumes_term(cloned(_), Item),
-    arg(1, Item, Endpoint),
-    atom(Endpoint).
-
-prolog:error_message(resource_error(result_bytes)) -->
-    { setting(result_bytes, Most) },
-    [ 'A result may have ~D bytes at most (setting typhon_payloads:result_bytes)'-
-      [Most] ].
