@@ -26,5 +26,6 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(program/machine,
             [answer_at/3, machine_ready/1, machine_run/3]).
 :- reexport(program/thread_state, [library_hook/0, machine_inside/0]).
-:- reexport(program/faults, [fault/3, fault_note/1, fault_noted/1]).
+:- reexport(program/faults,
+            [fault/3, fault_note/1, fault_noted/1, frame_of/2]).
 :- reexport(program/chunks, [place_left/4, plain_goals/2]).

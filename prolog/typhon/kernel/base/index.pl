@@ -89,7 +89,7 @@ part_file(Part, File) :-
 
 files('bridges/ros',['bridges/ros/events','bridges/ros/requests','bridges/ros/service']).
 files(language,['language/programs','language/source']).
-files('language/chunks',['language/chunks/chunk_compiler','language/chunks/chunk_faults']).
+files('language/chunks',['language/chunks/chunk_compiler']).
 files(network,['network/changes','network/children','network/dynamics','network/loading','network/log','network/networks','network/node_process','network/plan','network/topology','network/wiring']).
 files('options/access',['options/access']).
 files('options/cell',['options/cell/cell_hosts','options/cell/gatekeeper']).

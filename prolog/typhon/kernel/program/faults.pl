@@ -5,7 +5,8 @@
             fails_inside/2,             % +Frame, +Goals
             fault/3,                    % +Outcome, +Goals0, -Fault
             fault_noted/1,              % -Note
-            fault_note/1                % +Note
+            fault_note/1,               % +Note
+            frame_of/2                  % +Frame, ?PI
           ]).
 :- use_module(library(lists), [memberchk/2]).
 :- use_module(bodies, [goals_body/2]).
@@ -14,8 +15,8 @@
 /** <module> Where a run of the machine ended
 
 When a goal fails, the machine notes it.  When an error is about to leave the
-run, the hook reads the goals that the error abandons from the frames of the
-machine, which still exist then.  The last note is what ended the run: a fault
+run, module `typhon_chunk_faults` notes the goals that the error abandons.  The
+last note is what ended the run: a fault
 
     fault(Goal, Goals, natives(Raising, Clauses))
 
@@ -28,15 +29,6 @@ catch their errors half a microsecond.
 
 *Threading*: a global variable, so local to each thread.
 */
-
-:- multifile
-    chunk_goal/4,               % +Frame, +PC, -Goal, -Goals: the chunk in Frame
-                                % has called Goal before PC, and Goals are left
-    user:prolog_exception_hook/4,
-    prolog:prolog_exception_hook/5.
-:- dynamic
-    user:prolog_exception_hook/4,
-    prolog:prolog_exception_hook/5.
 
 %   A note is copied.  A larger one is made only when the run will end with
 %   this failure.
@@ -88,10 +80,7 @@ test_fails(_, _, _) :-
     fail.
 
 note(How, Goal, Goals) :-
-    note(How, Goal, Goals, natives(none, [])).
-
-note(How, Goal, Goals, Clauses) :-
-    nb_setval(typhon_fault, How-fault(Goal, Goals, Clauses)).
+    nb_setval(typhon_fault, How-fault(Goal, Goals, natives(none, []))).
 
 may_be_noted(Term, Choice) :-
     (   most_cells(Most),
@@ -110,6 +99,16 @@ final(Choice) :-
     passes_failure(Choice),
     prolog_choice_attribute(Choice, parent, Parent),
     final(Parent).
+
+%!  frame_of(+Frame, ?PI) is semidet.
+%
+%   Frame runs PI, a predicate of the machine.  A hook sees names qualified from
+%   its own module.
+
+frame_of(Frame, PI) :-
+    prolog_frame_attribute(Frame, predicate_indicator, PI0),
+    ( PI0 = PI ; PI0 = typhon_machine:PI ),
+    !.
 
 %   A choice point of catch/3, after whose failure fails_inside/2 goes on, or
 %   one that `*->` has cut.
@@ -134,130 +133,6 @@ fails_inside(Left-Framed, Goals) :-
     goals_body(Plain, Left),
     note(failed, Goal, [Framed|Goals]),
     fail.
-
-                /*******************************
-                *            ERRORS            *
-                *******************************/
-
-user:prolog_exception_hook(_, _, Frame, Catcher) :-
-    note_raised(Frame, Catcher).
-prolog:prolog_exception_hook(_, _, Frame, Catcher, _) :-
-    note_raised(Frame, Catcher).
-
-%   The hook sees names qualified from its own module.
-
-frame_of(Frame, PI) :-
-    prolog_frame_attribute(Frame, predicate_indicator, PI0),
-    ( PI0 = PI ; PI0 = typhon_machine:PI ),
-    !.
-
-%   The bindings of a hook that fails are undone, so the note is a global
-%   variable.
-
-note_raised(Frame, Catcher) :-
-    integer(Catcher),
-    frame_of(Catcher, machine_run/3),
-    native_goal(Frame, Raising),
-    native_clauses(100, Frame, Clauses),
-    raising(Frame, Goal, Goals, Outer),
-    same_goal(Frame, Raising, Goal),
-    framed(Outer, Goals, Left),
-    note(raised, Goal, Left, natives(Raising, Clauses)),
-    fail.
-
-raising(Frame, Control, [Control|Goals], Outer) :-
-    prolog_frame_attribute(Frame, parent, Outer),
-    frame_of(Outer, raises/3),
-    !,
-    prolog_frame_attribute(Outer, argument(2), Control),
-    prolog_frame_attribute(Outer, argument(3), Goals).
-raising(Frame, Goal, Goals, Outer) :-
-    in_chunk(Frame, Outer, PC),
-    !,
-    chunk_goal(Outer, PC, Goal, Goals).
-raising(Frame, Goal, [Goal|Goals], Outer) :-
-    outer(Frame, called(Goal, Goals, _, _, _), Outer).
-
-%   same_goal(+Frame, +Raising, ?Goal): in a chunk, a native goal has variables
-%   of its own for those that first occur in it.  If Raising, the goal of Frame,
-%   is that goal itself, a predicate without clauses, unify it with Goal, which
-%   then shows the bindings.
-
-same_goal(Frame, Raising, Goal) :-
-    (   \+ prolog_frame_attribute(Frame, clause, _),
-        prolog_frame_attribute(Frame, parent, Outer),
-        is_chunk(Outer)
-    ->  ignore(Goal = Raising)
-    ;   true
-    ).
-
-%   The attribute `goal` is qualified relative to the calling module.
-
-outer(Frame, Goal, Outer) :-
-    @(prolog_frame_attribute(Frame, parent_goal(Outer), Goal),
-      typhon_machine).
-
-%   framed(+Frame, +Goals0, -Goals): Goals0 within the constructs around Frame.
-
-framed(Frame, Goals0, Goals) :-
-    (   outer(Frame, inside(_, Sub-Framed, Goals1, _, _), Outer)
-    ->  plain_goals(Goals0, Plain),
-        goals_body(Plain, Sub),
-        framed(Outer, [Framed|Goals1], Goals)
-    ;   Goals = Goals0
-    ).
-
-%   in_chunk(+Frame, -Chunk, -PC) is semidet: Frame is below a goal of the chunk
-%   that runs in the frame Chunk, called before PC of its clause.
-
-in_chunk(Frame, Chunk, PC) :-
-    prolog_frame_attribute(Frame, parent, Outer),
-    (   is_chunk(Outer)
-    ->  Chunk = Outer,
-        prolog_frame_attribute(Frame, pc, PC)
-    ;   \+ frame_of(Outer, called/5),
-        in_chunk(Outer, Chunk, PC)
-    ).
-
-is_chunk(Frame) :-
-    prolog_frame_attribute(Frame, predicate_indicator, Module:Name/_),
-    chunk_name(Name),
-    '$get_predicate_attribute'(Module:'$goals'(_, _, _, _), defined, 1).
-
-chunk_name('$k') :- !.
-chunk_name(Name) :- sub_atom(Name, 0, _, _, 'run '), !.
-chunk_name(Name) :- sub_atom(Name, 0, _, _, 'do ').
-
-%   native_goal(+Frame, -Goal): the goal of Frame, which raised the error, or
-%   `none` if it is too large.
-
-native_goal(Frame, Goal) :-
-    prolog_frame_attribute(Frame, goal, Goal0),
-    strip_module(Goal0, _, Goal),
-    '$term_size'(Goal, 1000, _),
-    !.
-native_goal(_, none).
-
-%   native_clauses(+Most, +Frame, -Clauses): the clauses of up to Most frames.
-
-native_clauses(0, _, []) :-
-    !.
-native_clauses(_, Frame, []) :-
-    (   frame_of(Frame, called/5)
-    ;   frame_of(Frame, raises/3)
-    ;   is_chunk(Frame)
-    ),
-    !.
-native_clauses(Most, Frame, Clauses) :-
-    (   prolog_frame_attribute(Frame, clause, Clause)
-    ->  Clauses = [Clause|Clauses1]
-    ;   Clauses = Clauses1
-    ),
-    (   prolog_frame_attribute(Frame, parent, Outer)
-    ->  Most1 is Most-1,
-        native_clauses(Most1, Outer, Clauses1)
-    ;   Clauses1 = []
-    ).
 
                 /*******************************
                 *            FAULTS            *

@@ -60,9 +60,9 @@ Two threads must not run the same agent.
 %        agent elsewhere, Outcome is also `held`, if its outcome will come
 %        later, or lost(Why).
 %
-%   The cause of `failed` or raised(_) is noted, see typhon_faults, which knows
-%   the frames of machine_run/3, first_outcome/3, catching/7, inside/5,
-%   called/5 and raises/3.
+%   The cause of `failed` or raised(_) is noted, see typhon_faults, which knows,
+%   as typhon_chunk_faults, the frames of machine_run/3, first_outcome/3,
+%   catching/7, inside/5, called/5 and raises/3.
 
 machine_run(Context, Goals, Outcome) :-
     catch(first_outcome(Goals, Context, Outcome), Ball, Raised = true),

@@ -43,6 +43,7 @@ compiler is pure, except for the destructive change of a term of its own.
               [ body_calls/2, body_goals/4, built_in/1, clause_parts/3,
                 code_compiled/2, code_program/2, goals_body/2, named/4,
                 native_body/4, plain_goal/2, plain_goals/2, special/2 ]).
+:- use_module(chunk_faults, []).
 
 :- multifile
     typhon_chunks:compiled/1,
