@@ -118,7 +118,7 @@ may_use_by_day('prolog/typhon/kernel/base/monotonic.pl', [get_time,wait]).
 may_use_by_day('prolog/typhon/kernel/base/fifo.pl', [wait]).   % defines it
 may_use_by_day('prolog/typhon/kernel/host/scheduler.pl', [wait]).
 may_use_by_day('prolog/typhon/kernel/host/turns.pl', [get_time]).
-may_use_by_day('prolog/typhon/kernel/agent/fault.pl', [get_time]).
+may_use_by_day('prolog/typhon/language/faults.pl', [get_time]).
 may_use_by_day('prolog/typhon/language/source.pl', [get_time]).
 may_use_by_day('prolog/typhon/options/access.pl', [get_time]).
 may_use_by_day('prolog/typhon/options/keys.pl', [get_time]).

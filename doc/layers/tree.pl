@@ -305,8 +305,8 @@ reach(Part, Module, Name/Arity) :-
 
 layers([ 'kernel/base', 'bridges/json', 'bridges/helper', 'bridges/nxt',
          'kernel/program', 'language/chunks', language, 'kernel/wire',
-         'kernel/host', 'kernel/agent', 'kernel/travel', 'kernel/lifecycle',
-         'kernel/vocabulary', 'options/payloads', 'options/remote',
+         'kernel/host', 'kernel/agent', 'language/faults', 'kernel/travel',
+         'kernel/lifecycle', 'kernel/vocabulary', 'options/payloads', 'options/remote',
          'tools/administration', 'tools/checks', 'tools/source_view',
          'options/migration', 'options/keys', 'options/tls',
          'options/identity', 'options/trail', 'options/journal',

@@ -28,7 +28,6 @@ This is the interface of the layer: higher layers import from here.
 :- reexport('base/text', [is_printable/1]).
 :- reexport('agent/gate').
 :- reexport('agent/image').
-:- reexport('agent/fault').
 :- reexport('agent/results').
 :- reexport(agent/mailbox,
             [ agent_order/2, agent_ordered/1, agent_orders/2, agent_unorder/2,

@@ -30,6 +30,7 @@ joins(durable,'options/journal',[agent,letter,logged,out,seen,state,tuple]).
 joins(durable,'options/snapshot',[order,program,stands,stays]).
 joins(durable,'options/supervision',[monitor]).
 joins(environment,'options/tls',['TYPHON_TLS']).
+joins(fault,'language/faults',[report]).
 joins(fault,'tools/source_view',[location]).
 joins(host_option,'options/access',[audit,peer]).
 joins(host_option,'options/cell',[cell]).
@@ -90,6 +91,7 @@ part_file(Part, File) :-
 files('bridges/ros',['bridges/ros/events','bridges/ros/requests','bridges/ros/service']).
 files(language,['language/programs','language/source']).
 files('language/chunks',['language/chunks/chunk_compiler']).
+files('language/faults',['language/faults']).
 files(network,['network/changes','network/children','network/dynamics','network/loading','network/log','network/networks','network/node_process','network/plan','network/topology','network/wiring']).
 files('options/access',['options/access']).
 files('options/cell',['options/cell/cell_hosts','options/cell/gatekeeper']).

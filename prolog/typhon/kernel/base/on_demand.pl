@@ -28,6 +28,7 @@ for these.
   | program     | text     | a program or a payload is to be read        |
   | program     | read     | a program was read                          |
   | program     | runs     | a program is about to run                   |
+  | fault       | report   | an agent has failed, or raised an error     |
   | fault       | location | an agent has failed, or raised an error     |
   | payload     | any      | an agent gets, loses or delivers a payload  |
   | recipient   | external | a message is for no agent, but a bridge     |

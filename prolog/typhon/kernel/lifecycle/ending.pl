@@ -11,14 +11,15 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/durable', [unit_of_work/1]).
+:- use_module('../base/on_demand', [on_demand_call/3]).
 :- use_module('../base/reports', [report/4]).
 :- use_module('../host',
               [event/4, events_forget/1, host/3, host_again/1, host_leave/1]).
 :- use_module('../agent',
-              [ agent/5, agent_fault/5, agent_ordered/1, agent_put/3,
-                agent_ready/2, agent_remove/2, agent_status/3, fault_error/2,
-                fault_outcome/2, fault_shown/2, fault_stamp/2, is_faulty/3,
-                life_hops/2, result_facts/2, with_agent/2 ]).
+              [ agent/5, agent_ordered/1, agent_put/3, agent_ready/2,
+                agent_remove/2, agent_status/3, fault_error/2, fault_outcome/2,
+                fault_shown/2, fault_stamp/2, is_faulty/3, life_hops/2,
+                result_facts/2, with_agent/2 ]).
 :- use_module('../travel',
               [ agent_ended/4, agent_ends/2, agent_faulty/5, move_over/2,
                 transfer_given_up/2 ]).
@@ -28,7 +29,7 @@
 
 A faulty agent stays on its host with its goals, state and mail, and does not
 count in the load.  When an order arrives it becomes `ready`, and counts, until
-the order is done.  As its goals begin with its fault, see typhon_fault, it is
+the order is done.  As its goals begin with its fault, see typhon_results, it is
 faulty again wherever it runs next: after an order, after a move, or from a
 restore point.  Only agent_resume/1 removes the fault.
 
@@ -128,7 +129,9 @@ warn_if_in_doubt(_, _).
 %   and keep the agent as it was.
 
 agent_fails(Id, Outcome, Goals0) :-
-    (   agent_fault(Id, Outcome, Goals0, Fault, Left)
+    (   on_demand_call(fault, report,
+                       typhon_fault:agent_fault(Id, Outcome, Goals0, Fault,
+                                                Left))
     ->  report(Id, Fault),
         is_faulty(Goals, Fault, Left),
         agent_stays(Id, Goals)

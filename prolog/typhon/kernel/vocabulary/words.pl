@@ -27,7 +27,8 @@
 :- use_module(library(error),
               [existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../base/on_demand', [on_demand_load/2, on_demand_missing/2]).
+:- use_module('../base/on_demand',
+              [on_demand_call/3, on_demand_load/2, on_demand_missing/2]).
 :- use_module('../base/own_thread', [uncounted/1]).
 :- use_module('../base/reports', [report/4]).
 :- use_module('../program',
@@ -41,8 +42,8 @@
                 tuple_leave/3, tuple_leave_new/3, tuple_sense/2,
                 tuple_take/2 ]).
 :- use_module('../agent',
-              [ agent/5, agent_handled/3, agent_home/2, agent_variant/2,
-                life_hops/2, life_parent/2, result_put/2 ]).
+              [ agent/5, agent_home/2, agent_variant/2, life_hops/2,
+                life_parent/2, result_put/2 ]).
 :- use_module('../travel', [post/3]).
 
 /** <module> The vocabulary of agents
@@ -315,7 +316,10 @@ result(Term) :-
 message_failed(From, Message) :-
     context(Host, Id, _),
     may_say(Host, From-Message),
-    (   agent_handled(Id, on_message(From, Message), Fault)
+    (   on_demand_call(fault, report,
+                       typhon_fault:agent_handled(Id,
+                                                  on_message(From, Message),
+                                                  Fault))
     ->  Warning = message_undone(Id, From, Message, Fault)
     ;   Warning = message_failed(Id, From, Message)
     ),

@@ -15,8 +15,8 @@
 :- use_module('../../kernel/host',
               [host/3, parts_call/3, place_service/2, security_event/2]).
 :- use_module('../../kernel/agent',
-              [ agent_add/2, agent_clauses/3, agent_variant/2,
-                printable_fallback/2 ]).
+              [ agent_add/2, agent_clauses/3, agent_variant/2 ]).
+:- use_module('../../language/faults', [printable_fallback/2]).
 :- use_module(cell_frames, [cell_word/2, state_predicate/2]).
 
 /** <module> Checking and carrying out the messages of a cell

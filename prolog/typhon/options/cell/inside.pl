@@ -15,8 +15,8 @@
               [context_set/3, host/3, host_start/1]).
 :- use_module('../../tools/administration', [host_change/2]).
 :- use_module('../../kernel/agent',
-              [ agent_add/2, agent_code/2, agent_module/5,
-                printable_fallback/2 ]).
+              [ agent_add/2, agent_code/2, agent_module/5 ]).
+:- use_module('../../language/faults', [printable_fallback/2]).
 :- use_module('../../kernel/vocabulary', []).
 :- use_module(cell_frames).
 

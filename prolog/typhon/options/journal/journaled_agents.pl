@@ -11,7 +11,8 @@
 :- use_module('../../kernel/program', [code_receive/2, code_sent/2]).
 :- use_module('../../kernel/agent',
               [ agent/5, agent_enter/3, agent_module/5, agent_note/3,
-                agent_state/2, printable_fallback/2 ]).
+                agent_state/2 ]).
+:- use_module('../../language/faults', [printable_fallback/2]).
 :- use_module(units_of_work,
               [ changes_add/1, changes_bytes/2, changes_drop_at_once/3,
                 changes_put_at_once/4, changes_putting/5, deferred_any/0,

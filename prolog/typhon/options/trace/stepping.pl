@@ -7,7 +7,8 @@
 :- use_module('../../kernel/host', [event/4, event_subscribed/1, host/3]).
 :- use_module('../../kernel/agent',
               [ agent/5, agent_order/2, agent_put/3, agent_status/3,
-                agent_unorder/2, printable_fallback/2, with_agent/2 ]).
+                agent_unorder/2, with_agent/2 ]).
+:- use_module('../../language/faults', [printable_fallback/2]).
 :- use_module('../../kernel/lifecycle',
               [ agent_answer/3, agent_join/3, held_parts/3, order_give/3,
                 order_take/2, question_answered/2, turn_bounded/1,

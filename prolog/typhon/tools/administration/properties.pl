@@ -9,8 +9,9 @@
 :- use_module('../../kernel/host', [host/3, host_address/2, turn_of/3]).
 :- use_module('../../kernel/agent',
               [ agent/5, agent_home/2, agent_state/2, agent_status/3,
-                fault_error/2, fault_shown/2, printable_fallback/2, is_faulty/3,
+                fault_error/2, fault_shown/2, is_faulty/3,
                 life_hops/2, life_payloads/2, mail_list/2, with_agent/2 ]).
+:- use_module('../../language/faults', [printable_fallback/2]).
 :- use_module('../../kernel/travel', [in_doubt/1, transfer_held/2]).
 :- use_module('../../kernel/lifecycle',
               [ agent_ask/4, agent_ask_here/4, agent_named/2, held_parts/3,

@@ -17,7 +17,7 @@ it.  So the clause can be found when it is needed, after a fault.  The machine
 takes a clause body apart as it runs it, see typhon_machine, and point/3
 enumerates all lists of goals that can remain of a body.
 
-Places are as in typhon_fault.
+Places are as in typhon_results.
 
 *Threading*: any thread.
 */

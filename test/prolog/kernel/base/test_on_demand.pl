@@ -39,7 +39,7 @@ test(plain_host_loads_no_option, Out == "[]") :-
                                    typhon_journaled_tuples, \c
                                    typhon_host_log, typhon_concurrency, \c
                                    typhon_external_recipients, typhon_remote, \c
-                                   typhon_payloads, \c
+                                   typhon_payloads, typhon_fault, \c
                                    typhon_single ]), \c
                        module_property(M, file(_)) ), Ms), \c
           print(Ms)', Out).

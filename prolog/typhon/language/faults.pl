@@ -1,50 +1,35 @@
 :- module(typhon_fault,
           [ agent_fault/5,              % +Id, +Outcome, +Goals0, -Fault, -Goals
             agent_handled/3,            % +Id, +Goal, -Fault
-            fault_outcome/2,            % +Fault, -Outcome
-            fault_error/2,              % +Fault, -Error
-            fault_stamp/2,              % +Fault, -Stamp
-            fault_shown/2,              % +Fault, -Shown
-            fault_parts/5,              % +Fault, -Goal, -Where, -Address,
-                                        % -Hops
-            is_faulty/3,                % ?Goals, ?Fault, ?Left
             printable_fallback/2        % +Term, -Portable
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../base/error_text', [is_in_itself/1]).
-:- use_module('../wire', [mobile_term/1]).
-:- use_module('../base/on_demand', [on_demand_load/2]).
-:- use_module('../program', [fault/3]).
-:- use_module('../host', [host/3]).
-:- use_module(agents, [agent/5, life_hops/2]).
+:- use_module('../kernel/base/error_text', [is_in_itself/1]).
+:- use_module('../kernel/base/on_demand', [on_demand_load/2]).
+:- use_module('../kernel/program', [fault/3]).
+:- use_module('../kernel/wire', [mobile_term/1]).
+:- use_module('../kernel/host', [host/3]).
+:- use_module('../kernel/agent', [agent/5, life_hops/2]).
 
-/** <module> Faults of agents
+/** <module> Reports of faults of agents
 
-A fault is
-
-    fault(Outcome, Goal, Where, Address, Hops, Stamp)
-
-Outcome is `failed` or raised(Error).  Goal failed, or raised the error.  Where
-is its location: a list of up to two lists of places, the possible places of
-the goal and the possible places of its caller.  Address is that of the host,
-Hops the number of hops made, and Stamp the time.  A place is at(PI, Place): a
-clause of the predicate PI, Place being its File:Line, clause(N) for the N-th
-clause of PI if the line is not known, or `state` for a rule of the agent's
-state.  All parts are mobile terms.  The first goal of a faulty agent is
-'$fault'(Fault): the machine stops there, on any host, until the goal is
-removed.
+The fault of an agent, see typhon_results, is made when the agent has failed or
+raised an error.
 
 *Threading*: agent_fault/5 in the worker that ran the agent.
 */
 
 :- multifile
+    typhon_on_demand:joins/2,
     fault_location/4,           % +Hash, +Module, +Fault, -Where
     handled/5,                  % +Hash, +Module, +Goal, +Fault, -Where: of a
                                 % Goal that no clause of the program called
     advice/3.                   % +PI, +Hash, -Text: suggests names in place of
                                 % PI, a predicate that does not exist
+
+typhon_on_demand:joins(fault, report).
 
 %!  agent_fault(+Id, +Outcome, +Goals0, -Fault, -Goals) is semidet.
 %
@@ -118,58 +103,6 @@ where(Hash, Module, Fault, Where) :-
     !,
     ( var(Where0) -> Where = [] ; Where = Where0 ).
 where(_, _, _, []).
-
-%!  fault_outcome(+Fault, -Outcome) is det.
-%
-%   Outcome is `failed` or raised(Error).
-
-fault_outcome(fault(Outcome, _, _, _, _, _), Outcome).
-
-%!  fault_error(+Fault, -Error) is det.
-%
-%   Error is `failed` for a goal that failed.
-
-fault_error(Fault, Error) :-
-    fault_outcome(Fault, Outcome),
-    (   Outcome = raised(Error0)
-    ->  Error = Error0
-    ;   Error = failed
-    ).
-
-%!  fault_stamp(+Fault, -Stamp:float) is det.
-
-fault_stamp(fault(_, _, _, _, _, Stamp), Stamp).
-
-%!  fault_shown(+Fault, -Shown) is det.
-%
-%   Shown is fault(Error, Goal, Place, Host), Place being File:Line, PI:N for
-%   the N-th clause of PI, or `unknown`.
-
-fault_shown(Fault, fault(Error, Goal, Place, Address)) :-
-    fault_error(Fault, Error),
-    Fault = fault(_, Goal, Where, Address, _, _),
-    place_shown(Where, Place).
-
-place_shown([[at(PI, At)|_]|_], Place) =>
-    (   At = clause(N)
-    ->  Place = PI:N
-    ;   At == state
-    ->  Place = PI:state
-    ;   Place = At
-    ).
-place_shown(_, Place) =>
-    Place = unknown.
-
-%!  fault_parts(+Fault, -Goal, -Where, -Address, -Hops) is det.
-
-fault_parts(fault(_, Goal, Where, Address, Hops, _), Goal, Where, Address,
-            Hops).
-
-%!  is_faulty(?Goals, ?Fault, ?Left) is semidet.
-%
-%   Goals are the goals of an agent that is faulty: Fault, then Left.
-
-is_faulty(['$fault'(Fault)|Left], Fault, Left).
 
                 /*******************************
                 *      PRINTABLE FALLBACK      *
