@@ -1,6 +1,12 @@
-:- module(typhon_error_lines, []).
-:- use_module(library(lists), [append/3]).
-:- use_module('../kernel/base/error_text', [context_indicator/3, is_remark/1]).
+:- module(typhon_error_lines,
+          [ error_message/3,            % +Error, -Lines, ?Rest
+            error_text/2,               % +Error, -Text
+            harmless_error/2            % +Ball0, -Ball
+          ]).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module('../kernel/base/error_text',
+              [is_abort/1, is_remark/1, is_tree/2, large_text/2]).
+:- use_module('../kernel/base/text', [shown_lines/2]).
 
 /** <module> Texts of errors of ISO and SWI-Prolog
 
@@ -8,13 +14,20 @@ This module has clauses for the errors of ISO and of SWI-Prolog.  Errors of this
 library have clauses of prolog:error_message//1; all other errors are written as
 terms.  See typhon_error_text.
 
-*Threading*: pure.
+An error that another process answers is raised in the thread that asked, and
+the top level prints it by the translations of SWI-Prolog and its libraries.
+Some of these call parts of an error; harmless_error/2 finds such errors.
+
+*Threading*: pure, except for a flag that is local to the thread.
 */
 
+:- meta_predicate plainly(//, -).
+
 :- multifile
-    prolog:error_message//1,
-    typhon_error_text:lines//1,
-    typhon_error_text:formal_lines//1.
+    typhon_on_demand:joins/2,
+    prolog:error_message//1.
+
+typhon_on_demand:joins(error, text).
 
 :- dynamic library/1.
 
@@ -25,19 +38,64 @@ terms.  See typhon_error_text.
    retractall(library(_)),
    assertz(library(Root)).
 
-typhon_error_text:lines(Ball) -->
+%!  error_message(+Error, -Lines, ?Rest) is det.
+%
+%   See error_lines/3.
+
+error_message(Error) -->
+    { error_text(Error, Text),
+      split_string(Text, "\n", "", Lines)
+    },
+    text_lines(Lines).
+
+text_lines([Line]) -->
+    !,
+    [ '~w'-[Line] ].
+text_lines([Line|Lines]) -->
+    [ '~w'-[Line], nl ],
+    text_lines(Lines).
+
+%!  error_text(+Error, -Text:string) is det.
+%
+%   Text is the message of Error, an exception of any origin.
+
+error_text(Error, Text) :-
+    (   is_tree(Error, 50 000)
+    ->  plainly(message(Error), Text)
+    ;   Error = error(Formal, _),
+        is_tree(Formal, 50 000)
+    ->  plainly(message(error(Formal, _)), Text)
+    ;   large_text(Error, Text)
+    ).
+
+%   plainly(:Message, -Text): Text is the text of the lines of Message, written
+%   without hooks.
+
+plainly(Message, Text) :-
+    current_prolog_flag(print_write_options, Old),
+    setup_call_cleanup(
+        set_prolog_flag(print_write_options,
+                        [quoted(true), numbervars(true), portray(false)]),
+        ( phrase(Message, Lines0),
+          shown_lines(Lines0, Lines),
+          with_output_to(string(Text0),
+                         print_message_lines(current_output, '', Lines)) ),
+        set_prolog_flag(print_write_options, Old)),
+    split_string(Text0, "", " \n", [Text]).
+
+message(Ball) -->
     { var(Ball) },
     !,
     [ 'Unhandled exception: ~p'-[Ball] ].
-typhon_error_text:lines(error(Formal, Context)) -->
+message(error(Formal, Context)) -->
     !,
     location(Context),
     formal(Formal),
     extra(Context).
-typhon_error_text:lines('$aborted') -->
+message('$aborted') -->
     !,
     [ 'Execution Aborted' ].
-typhon_error_text:lines(Ball) -->
+message(Ball) -->
     [ 'Unhandled exception: ~p'-[Ball] ].
 
 formal(Formal) -->
@@ -46,11 +104,7 @@ formal(Formal) -->
 formal(Formal) -->
     [ 'Unknown error term: ~p'-[Formal] ].
 
-%   typhon_error_text:formal_lines//1 fails for errors that this library does
-%   not translate.
-
-typhon_error_text:formal_lines(Formal) -->
-    formal_message(Formal).
+%   formal_message//1 fails for errors that this library does not translate.
 
 formal_message(Formal) -->
     { nonvar(Formal) },
@@ -229,3 +283,120 @@ extra(string(Text, Position)) -->
     [ nl, '~w'-[Before], nl, '** here **', nl, '~w'-[After] ].
 extra(_) -->
     [].
+
+%   context_indicator(+PI, -Name, -Arity) is semidet: PI, that is Name/Arity, is a predicate indicator that may be in the context
+%   of an error.
+
+context_indicator(PI0, Name, Arity) :-
+    nonvar(PI0),
+    (   PI0 = Module:PI,
+        memberchk(Module, [system, user])
+    ->  true
+    ;   PI = PI0
+    ),
+    nonvar(PI),
+    PI = Name0/Arity,
+    integer(Arity),
+    (   atom(Name0)
+    ->  Name = Name0
+    ;   nonvar(Name0),
+        Name0 = M:N,
+        atom(M),
+        atom(N),
+        Name = Name0
+    ).
+
+                /*******************************
+                *         RAISED AGAIN         *
+                *******************************/
+
+%!  harmless_error(+Ball0, -Ball) is det.
+%
+%   Ball is to be raised here in place of Ball0, which another process raised.
+%   If printing Ball0 calls no goal, Ball is the same error with the part of
+%   its context that is text.  Else it is error(raised_elsewhere(Ball0), _).
+
+harmless_error(Ball0, Ball) :-
+    (   harmless(Ball0, Ball1)
+    ->  Ball = Ball1
+    ;   Ball = error(raised_elsewhere(Ball0), _)
+    ).
+
+harmless(error(Formal, Context0), error(Formal, Context)) :-
+    !,
+    nonvar(Formal),
+    is_tree(Formal, 50 000),
+    harmless_formal(Formal),
+    harmless_context(Context0, Context).
+harmless(Ball, Ball) :-
+    nonvar(Ball),
+    \+ is_abort(Ball),
+    is_tree(Ball, 50 000),
+    \+ translated(Ball).
+
+%   SWI-Prolog's messages for these two read the context, or the culprit, too.
+
+harmless_formal(resource_error(What)) :-
+    !,
+    atom(What),
+    What \== stack.
+harmless_formal(existence_error(reset, _)) :-
+    !,
+    fail.
+harmless_formal(Formal) :-
+    phrase(formal_message(Formal), _),
+    !.
+harmless_formal(Formal) :-
+    \+ translated(error(Formal, _)).
+
+harmless_context(Context0, Context) :-
+    nonvar(Context0),
+    Context0 = context(PI0, Text0),
+    !,
+    ( context_indicator(PI0, _, _) -> PI = PI0 ; true ),
+    ( is_remark(Text0) -> Text = Text0 ; true ),
+    Context = context(PI, Text).
+harmless_context(_, _).
+
+%   translated(+Ball): a hook or SWI-Prolog translates it.  The first two
+%   clauses are of translate_message//1 itself, not of a table.
+
+translated(format(_, _)) :-
+    !.
+translated(message_lines(_)) :-
+    !.
+translated(Ball) :-
+    translating(Ball, Term, Any, Hook),
+    catch(accepts(Term, Any, Hook),
+          error(permission_error(_, _, _), _), true),   % it is protected
+    !.
+
+%   accepts(+Term, ?Any, :Hook): a clause of Hook, whose argument Any is the
+%   term, accepts Term.  A clause that accepts any term counts if the predicate
+%   to which it passes the term accepts it; that of typhon_text does not.
+
+accepts(Term, Any, Hook) :-
+    predicate_property(Hook, defined),
+    clause(Hook, Body),
+    Body \= typhon_text:_,
+    (   var(Any),
+        Body = Module:Goal,
+        callable(Goal),
+        arg(_, Goal, Arg),
+        Arg == Any
+    ->  accepts(Term, Any, Module:Goal)
+    ;   \+ Any \= Term
+    ),
+    !.
+
+translating(Ball, Ball, Any, Hook) :-
+    member(Hook, [ prolog:message(Any, _, _), prolog:message(_, Any, _, _),
+                   '$messages':prolog_message(Any, _, _) ]).
+translating(error(Formal, _), Formal, Any, Hook) :-
+    member(Hook, [ prolog:error_message(Any, _, _),
+                   prolog:error_message(_, Any, _, _),
+                   '$messages':iso_message(Any, _, _),
+                   '$messages':swi_message(Any, _, _) ]).
+
+prolog:error_message(raised_elsewhere(Ball)) -->
+    [ 'Raised elsewhere: ~p'-[Ball] ].

@@ -1,13 +1,11 @@
 :- module(typhon_error_text,
           [ error_lines/3,              % +Error, -Lines, ?Rest
-            error_text/2,               % +Error, -Text
             print_error/2,              % +Kind, +Error
             term_lines/3,               % +Term, -Lines, ?Rest
-            context_indicator/3,        % +PI, -Name, -Arity
+            large_text/2,               % +Term, -Text
             is_remark/1,                % @Text
             is_abort/1,                 % @Ball
             abridged/3,                 % +Term, +Longest, -Text
-            harmless_error/2,           % +Ball0, -Ball
             is_tree/2,                  % +Term, +Most
             is_in_itself/1              % +Term
           ]).
@@ -16,29 +14,19 @@
 
 An error that an agent raises, or that another process answers, is untrusted
 data.  print_message/2 would run parts of it: it prints format(Format, Args)
-with these arguments, and ~@ calls one of them.  So this module converts an
-error to text by the hook lines//1.  No hook for printing (portray/1,
-attributes) sees a part of the error, and a large term is not written.
+with these arguments, and ~@ calls one of them.  So typhon_error_lines, which
+is loaded for the first error, converts an error to text.  No hook for printing
+(portray/1, attributes) sees a part of a term, and a large term is not written.
 
-An error that another process answers is raised in the thread that asked, and
-the top level prints it by the translations of SWI-Prolog and its libraries.
-Some of these call parts of an error; harmless_error/2 finds such errors.
-
-*Threading*: pure, except for a flag that is local to the thread.
+*Threading*: pure.
 */
 
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [member/2]).
-:- use_module(text, [shown_lines/2]).
-
-:- meta_predicate plainly(//, -).
 
 :- multifile
-    lines//1,                           % +Error: the lines of its message
-    prolog:message//1,
-    formal_lines//1,                    % +Formal: of an error of ISO, SWI-Prolog or
-                                        % this library
-    prolog:error_message//1.
+    load_texts/0,                       % load typhon_error_lines
+    prolog:message//1.
 
 %!  print_error(+Kind, +Error) is det.
 %
@@ -65,37 +53,16 @@ ends_thread(unwind(_)).                 % SWI-Prolog 9.3 and later
 %
 %   Lines are the message, as of prolog:message//1.
 
-error_lines(Error) -->
-    { error_text(Error, Text),
-      split_string(Text, "\n", "", Lines)
-    },
-    text_lines(Lines).
-
-text_lines([Line]) -->
+error_lines(Error, Lines, Rest) :-
+    catch(load_texts, error(_, _), fail),       % threads may be exhausted
     !,
-    [ '~w'-[Line] ].
-text_lines([Line|Lines]) -->
-    [ '~w'-[Line], nl ],
-    text_lines(Lines).
+    typhon_error_lines:error_message(Error, Lines, Rest).
+error_lines(Error) -->
+    term_lines(Error).
 
-%!  error_text(+Error, -Text:string) is det.
+%!  large_text(+Term, -Text) is det.
 %
-%   Text is the message of Error, an exception of any origin.
-
-error_text(Error, Text) :-
-    (   is_tree(Error, 50 000)
-    ->  plainly(message(Error), Text)
-    ;   Error = error(Formal, _),
-        is_tree(Formal, 50 000)
-    ->  plainly(message(error(Formal, _)), Text)
-    ;   large_text(Error, Text)
-    ).
-
-message(Error) -->
-    lines(Error),
-    !.
-message(Error) -->                      % no loaded code translates it
-    [ '~p'-[Error] ].
+%   Text is there in place of Term, which is too large.
 
 large_text(Term, Text) :-
     (   callable(Term)
@@ -104,23 +71,6 @@ large_text(Term, Text) :-
     ;   Text = "a large term"
     ).
 
-%   plainly(:Message, -Text): Text is the text of the lines of Message, written
-%   without hooks.
-
-plainly(Message, Text) :-
-    plain_options(Options),
-    current_prolog_flag(print_write_options, Old),
-    setup_call_cleanup(
-        set_prolog_flag(print_write_options, Options),
-        ( phrase(Message, Lines0),
-          shown_lines(Lines0, Lines),
-          with_output_to(string(Text0),
-                         print_message_lines(current_output, '', Lines)) ),
-        set_prolog_flag(print_write_options, Old)),
-    split_string(Text0, "", " \n", [Text]).
-
-plain_options([quoted(true), numbervars(true), portray(false)]).
-
 %!  term_lines(+Term, -Lines, ?Rest) is det.
 %
 %   Lines print Term as data: no hook is called.
@@ -128,35 +78,10 @@ plain_options([quoted(true), numbervars(true), portray(false)]).
 term_lines(Term) -->
     { is_tree(Term, 200 000) },
     !,
-    [ '~W'-[Term, Options] ],
-    { plain_options(Options) }.
+    [ '~W'-[Term, [quoted(true), numbervars(true), portray(false)]] ].
 term_lines(Term) -->
     { large_text(Term, Text) },
     [ '~w'-[Text] ].
-
-%!  context_indicator(+PI, -Name, -Arity) is semidet.
-%
-%   PI, that is Name/Arity, is a predicate indicator that may be in the context
-%   of an error.
-
-context_indicator(PI0, Name, Arity) :-
-    nonvar(PI0),
-    (   PI0 = Module:PI,
-        memberchk(Module, [system, user])
-    ->  true
-    ;   PI = PI0
-    ),
-    nonvar(PI),
-    PI = Name0/Arity,
-    integer(Arity),
-    (   atom(Name0)
-    ->  Name = Name0
-    ;   nonvar(Name0),
-        Name0 = M:N,
-        atom(M),
-        atom(N),
-        Name = Name0
-    ).
 
 %!  is_remark(@Text) is semidet.
 %
@@ -199,101 +124,6 @@ named(Term) :-
     term_singletons(Term, Singletons),
     maplist(=('$VAR'('_')), Singletons),
     numbervars(Term, 0, _).
-
-                /*******************************
-                *         RAISED AGAIN         *
-                *******************************/
-
-%!  harmless_error(+Ball0, -Ball) is det.
-%
-%   Ball is to be raised here in place of Ball0, which another process raised.
-%   If printing Ball0 calls no goal, Ball is the same error with the part of
-%   its context that is text.  Else it is error(raised_elsewhere(Ball0), _).
-
-harmless_error(Ball0, Ball) :-
-    (   harmless(Ball0, Ball1)
-    ->  Ball = Ball1
-    ;   Ball = error(raised_elsewhere(Ball0), _)
-    ).
-
-harmless(error(Formal, Context0), error(Formal, Context)) :-
-    !,
-    nonvar(Formal),
-    is_tree(Formal, 50 000),
-    harmless_formal(Formal),
-    harmless_context(Context0, Context).
-harmless(Ball, Ball) :-
-    nonvar(Ball),
-    \+ is_abort(Ball),
-    is_tree(Ball, 50 000),
-    \+ translated(Ball).
-
-%   SWI-Prolog's messages for these two read the context, or the culprit, too.
-
-harmless_formal(resource_error(What)) :-
-    !,
-    atom(What),
-    What \== stack.
-harmless_formal(existence_error(reset, _)) :-
-    !,
-    fail.
-harmless_formal(Formal) :-
-    phrase(formal_lines(Formal), _),
-    !.
-harmless_formal(Formal) :-
-    \+ translated(error(Formal, _)).
-
-harmless_context(Context0, Context) :-
-    nonvar(Context0),
-    Context0 = context(PI0, Text0),
-    !,
-    ( context_indicator(PI0, _, _) -> PI = PI0 ; true ),
-    ( is_remark(Text0) -> Text = Text0 ; true ),
-    Context = context(PI, Text).
-harmless_context(_, _).
-
-%   translated(+Ball): a hook or SWI-Prolog translates it.  The first two
-%   clauses are of translate_message//1 itself, not of a table.
-
-translated(format(_, _)) :-
-    !.
-translated(message_lines(_)) :-
-    !.
-translated(Ball) :-
-    translating(Ball, Term, Any, Hook),
-    catch(accepts(Term, Any, Hook),
-          error(permission_error(_, _, _), _), true),   % it is protected
-    !.
-
-%   accepts(+Term, ?Any, :Hook): a clause of Hook, whose argument Any is the
-%   term, accepts Term.  A clause that accepts any term counts if the predicate
-%   to which it passes the term accepts it; that of typhon_text does not.
-
-accepts(Term, Any, Hook) :-
-    predicate_property(Hook, defined),
-    clause(Hook, Body),
-    Body \= typhon_text:_,
-    (   var(Any),
-        Body = Module:Goal,
-        callable(Goal),
-        arg(_, Goal, Arg),
-        Arg == Any
-    ->  accepts(Term, Any, Module:Goal)
-    ;   \+ Any \= Term
-    ),
-    !.
-
-translating(Ball, Ball, Any, Hook) :-
-    member(Hook, [ prolog:message(Any, _, _), prolog:message(_, Any, _, _),
-                   '$messages':prolog_message(Any, _, _) ]).
-translating(error(Formal, _), Formal, Any, Hook) :-
-    member(Hook, [ prolog:error_message(Any, _, _),
-                   prolog:error_message(_, Any, _, _),
-                   '$messages':iso_message(Any, _, _),
-                   '$messages':swi_message(Any, _, _) ]).
-
-prolog:error_message(raised_elsewhere(Ball)) -->
-    [ 'Raised elsewhere: ~p'-[Ball] ].
 
                 /*******************************
                 *    CYCLIC AND DEEP TERMS     *

@@ -56,7 +56,7 @@ in_own_thread(Goal) :-
     atom_concat(typhon_stopper_, N, Alias),
     catch(thread_create(typhon_own_thread:alone(Goal), Thread,
                         [alias(Alias)]),
-          error(resource_error(_), _), fail),
+          error(_, _), fail),           % too many, or the process ends
     !,
     catch(thread_join(Thread, Status), Interrupt,
           ( thread_detach(Thread),

@@ -15,9 +15,9 @@
 :- use_module('../base/fifo', [fifo_send/2]).
 :- use_module('../base/monotonic', [monotonic_time/1, wait_before/2]).
 :- use_module('../base/on_demand',
-              [on_demand_later/1, on_demand_load/2, on_demand_part/2]).
+              [ on_demand_call/3, on_demand_later/1, on_demand_load/2,
+                on_demand_part/2 ]).
 :- use_module('../base/bounds', [bounded/3]).
-:- use_module('../base/error_text', [harmless_error/2]).
 :- use_module('../wire', [endpoint_address/1, endpoint_reply/2]).
 :- use_module('../host',
               [address_parts/3, process_ask/6, time_now/1, time_wait/3]).
@@ -74,7 +74,8 @@ agent_asked(Agent, Question, Seconds, Term) :-
 
 answer_term(answer(Term), Term).
 answer_term(error(Formal), _) :-
-    harmless_error(error(Formal, _), Ball),
+    on_demand_call(error, text,
+                   typhon_error_lines:harmless_error(error(Formal, _), Ball)),
     throw(Ball).
 
 %!  agent_ask_here(+Agent, +Question, +Seconds, -Answer) is semidet.
