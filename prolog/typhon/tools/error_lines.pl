@@ -1,6 +1,5 @@
 :- module(typhon_error_lines,
-          [ error_message/3,            % +Error, -Lines, ?Rest
-            error_text/2,               % +Error, -Text
+          [ error_text/2,               % +Error, -Text
             harmless_error/2            % +Ball0, -Ball
           ]).
 :- use_module(library(lists), [append/3, member/2]).
@@ -24,10 +23,8 @@ Some of these call parts of an error; harmless_error/2 finds such errors.
 :- meta_predicate plainly(//, -).
 
 :- multifile
-    typhon_on_demand:joins/2,
+    typhon_error_text:lines//1,
     prolog:error_message//1.
-
-typhon_on_demand:joins(error, text).
 
 :- dynamic library/1.
 
@@ -38,11 +35,7 @@ typhon_on_demand:joins(error, text).
    retractall(library(_)),
    assertz(library(Root)).
 
-%!  error_message(+Error, -Lines, ?Rest) is det.
-%
-%   See error_lines/3.
-
-error_message(Error) -->
+typhon_error_text:lines(Error) -->
     { error_text(Error, Text),
       split_string(Text, "\n", "", Lines)
     },

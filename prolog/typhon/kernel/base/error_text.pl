@@ -14,9 +14,10 @@
 
 An error that an agent raises, or that another process answers, is untrusted
 data.  print_message/2 would run parts of it: it prints format(Format, Args)
-with these arguments, and ~@ calls one of them.  So typhon_error_lines, which
-is loaded for the first error, converts an error to text.  No hook for printing
-(portray/1, attributes) sees a part of a term, and a large term is not written.
+with these arguments, and ~@ calls one of them.  So typhon_error_lines converts
+an error to text.  It is loaded at once, since errors are also printed where a
+mutex is held.  No hook for printing (portray/1, attributes) sees a part of a
+term, and a large term is not written.
 
 *Threading*: pure.
 */
@@ -25,7 +26,7 @@ is loaded for the first error, converts an error to text.  No hook for printing
 :- use_module(library(lists), [member/2]).
 
 :- multifile
-    load_texts/0,                       % load typhon_error_lines
+    lines//1,                           % +Error: the lines of its message
     prolog:message//1.
 
 %!  print_error(+Kind, +Error) is det.
@@ -53,11 +54,10 @@ ends_thread(unwind(_)).                 % SWI-Prolog 9.3 and later
 %
 %   Lines are the message, as of prolog:message//1.
 
-error_lines(Error, Lines, Rest) :-
-    catch(load_texts, error(_, _), fail),       % threads may be exhausted
-    !,
-    typhon_error_lines:error_message(Error, Lines, Rest).
 error_lines(Error) -->
+    lines(Error),
+    !.
+error_lines(Error) -->                  % no loaded code translates it
     term_lines(Error).
 
 %!  large_text(+Term, -Text) is det.

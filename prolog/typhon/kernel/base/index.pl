@@ -30,7 +30,6 @@ joins(durable,'options/journal',[agent,letter,logged,out,seen,state,tuple]).
 joins(durable,'options/snapshot',[order,program,stands,stays]).
 joins(durable,'options/supervision',[monitor]).
 joins(environment,'options/tls',['TYPHON_TLS']).
-joins(error,'tools/error_lines',[text]).
 joins(fault,'language/faults',[report]).
 joins(fault,'tools/source_view',[location]).
 joins(host_option,'options/access',[audit,peer]).
@@ -118,7 +117,6 @@ files('options/watch',['options/watch/metrics','options/watch/watch_receiver','o
 files(tools,['tools/inventory']).
 files('tools/administration',['tools/administration/change','tools/administration/host_questions','tools/administration/properties','tools/administration/restore']).
 files('tools/checks',['tools/checks/goal_lines','tools/checks/warnings']).
-files('tools/error_lines',['tools/error_lines']).
 files('tools/source_view',['tools/source_view/clause_location']).
 
 %!  part_setting(?Name, ?Module, ?Type, ?Default, ?Text, ?File) is nondet.

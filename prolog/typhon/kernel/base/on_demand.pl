@@ -31,7 +31,6 @@ for these.
   | fault       | report   | an agent has failed, or raised an error     |
   | fault       | location | an agent has failed, or raised an error     |
   | payload     | any      | an agent gets, loses or delivers a payload  |
-  | error       | text     | an error is printed, or comes from a peer   |
   | recipient   | external | a message is for no agent, but a bridge     |
 
 Other threads run meanwhile, and call hooks. So clauses of hooks are compiled
@@ -139,13 +138,6 @@ path(File, Path) :-
 
 on_demand_later(Goal) :-
     worker_call(Goal).
-
-%   Module error_text cannot import this one.
-
-:- multifile typhon_error_text:load_texts/0.
-
-typhon_error_text:load_texts :-
-    on_demand_load(error, text).
 
                 /*******************************
                 *    HOOKS COME LAST IN FILES  *

@@ -15,13 +15,13 @@
 :- use_module('../base/fifo', [fifo_send/2]).
 :- use_module('../base/monotonic', [monotonic_time/1, wait_before/2]).
 :- use_module('../base/on_demand',
-              [ on_demand_call/3, on_demand_later/1, on_demand_load/2,
-                on_demand_part/2 ]).
+              [on_demand_later/1, on_demand_load/2, on_demand_part/2]).
 :- use_module('../base/bounds', [bounded/3]).
 :- use_module('../wire', [endpoint_address/1, endpoint_reply/2]).
 :- use_module('../host',
               [address_parts/3, process_ask/6, time_now/1, time_wait/3]).
 :- use_module('../agent', [agent/5, agent_home_endpoint/2, agent_name/3]).
+:- use_module('../../tools/error_lines', [harmless_error/2]).
 :- use_module('../travel',
               [agent_outcome/2, ended_agent/1, home_agents/1, whereabouts/2]).
 
@@ -74,8 +74,7 @@ agent_asked(Agent, Question, Seconds, Term) :-
 
 answer_term(answer(Term), Term).
 answer_term(error(Formal), _) :-
-    on_demand_call(error, text,
-                   typhon_error_lines:harmless_error(error(Formal, _), Ball)),
+    harmless_error(error(Formal, _), Ball),
     throw(Ball).
 
 %!  agent_ask_here(+Agent, +Question, +Seconds, -Answer) is semidet.

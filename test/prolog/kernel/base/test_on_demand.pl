@@ -40,7 +40,6 @@ test(plain_host_loads_no_option, Out == "[]") :-
                                    typhon_host_log, typhon_concurrency, \c
                                    typhon_external_recipients, typhon_remote, \c
                                    typhon_payloads, typhon_fault, \c
-                                   typhon_error_lines, \c
                                    typhon_single ]), \c
                        module_property(M, file(_)) ), Ms), \c
           print(Ms)', Out).
@@ -161,28 +160,19 @@ test(nothing_is_loaded_while_a_mutex_is_held, [nondet, Held == []]) :-
     sub_string(Out, Before, _, 0, Text),
     term_string(held(Held), Text).
 
-%   Texts of errors are loaded wherever the first error is printed.
-
-test(first_error_of_a_process_that_ends,
-     [ forall(member(Before, [true, host_start(a)])),
-       true(sub_string(Out, _, _, _, "Type error")) ]) :-
-    print_goal(Print),
-    format(atom(Goal), '~q, at_halt(( ~w flush_output ))', [Before, Print]),
+test(process_that_ends_loads_code,
+     [forall(member(Before, [true, host_start(a)])), Out == "loaded"]) :-
+    part_loaded(Loaded),
+    format(atom(Goal), '~q, at_halt(( ~w, flush_output ))', [Before, Loaded]),
     seen(Goal, Out).
-test(first_error_in_a_thread_with_little_stack,
-     true(sub_string(Out, _, _, _, "Type error"))) :-
-    print_goal(Print),
-    format(atom(Goal), 'thread_create(( ~w true ), T, [stack_limit(100000)]), \c
-                        thread_join(T)', [Print]),
-    seen(Goal, Out).
-test(first_error_within_a_limit, true(sub_string(Out, _, _, _, "Type error"))) :-
-    print_goal(Print),
-    format(atom(Goal), 'call_with_inference_limit(( ~w true ), 100, _), \c
-                        ~w true', [Print, Print]),
+test(thread_with_little_stack_loads_code, Out == "loaded") :-
+    part_loaded(Loaded),
+    format(atom(Goal), 'thread_create(( ~w ), T, [stack_limit(100000)]), \c
+                        thread_join(T, true)', [Loaded]),
     seen(Goal, Out).
 
-print_goal('typhon_error_text:error_lines(error(type_error(a,b),_), L, []), \c
-            print(L),').
+part_loaded('typhon_on_demand:on_demand_load(fault, report), \c
+             module_property(typhon_fault, file(_)), write(loaded)').
 
 test(library_predicates_are_searched_for_again, Out == "true,false") :-
     seen('current_prolog_flag(autoload, A), \c
