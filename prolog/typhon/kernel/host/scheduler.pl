@@ -28,9 +28,18 @@ resident.  Module `time` decides which thread does the work, and when alarms go
 off.
 
 The pool grows when the queue is stuck: work waits, and no worker has begun a
-turn for `stuck_seconds`.  At most `max_workers` workers are not blocked by
-native goals, see module `blocked`.  A worker that has been idle for long ends
-if there are enough others.
+turn for `stuck_seconds`.  A worker that has been idle for long ends if there
+are enough others.
+
+A native goal that blocks occupies its worker.  Which goals block is known only
+at run time: each thread records when its turn began (module `turns`), and a
+worker whose turn has lasted for `blocked_seconds` is blocked.  The pool may
+grow beyond `max_workers` by as many workers as are blocked, and a warning names
+their agents.
+
+At `blocked_workers` workers, or when no thread can be created, work of the
+kinds that block is held until workers are free again; agents of one program
+are of one kind.  The pool may then grow by its maximum for the other kinds.
 
 The timer has an index of the stamps of all alarms and waits for the first of
 them.  A module records the purpose of an alarm before it sets it: the timer
@@ -70,7 +79,7 @@ index of stamps is on the stack of the timer.
 
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(pairs), [pairs_keys_values/3]).
 :- autoload(library(rbtrees),
             [ ord_list_to_rbtree/2, rb_delete/3, rb_insert/4, rb_min/3,
@@ -85,9 +94,6 @@ index of stamps is on the stack of the timer.
 :- use_module('../base/server',
               [ server_answer/2, server_cast/2, server_check/1,
                 server_start/4, server_stop/1 ]).
-:- use_module(blocked,
-              [ blocked_forget/0, blocked_full/2, blocked_held/1,
-                blocked_kind/1, blocked_release/1, blocked_room/3 ]).
 :- use_module(time,
               [ alarm_in/3, time_adopt/1, time_day_wait/3,
                 time_here/2, time_kind/1, time_work/1 ]).
@@ -103,6 +109,10 @@ index of stamps is on the stack of the timer.
            "Idle workers beyond the minimum end").
 :- setting(stuck_seconds, number, 0.01,
            "Seconds without a new turn after which the pool grows").
+:- setting(blocked_seconds, number, 1,
+           "Seconds of a turn after which its worker is blocked").
+:- setting(blocked_workers, positive_integer, 768,
+           "Number of workers from which work that blocks is held").
 
 :- meta_predicate
     work_do(+, 1),
@@ -115,7 +125,10 @@ index of stamps is on the stack of the timer.
     timer/1,                            % Server
     limited/1,                          % Host
     alarm/3,                            % Stamp, Agent, Token
-    new/1.                              % Queue of stamps
+    new/1,                              % Queue of stamps
+    blocked_kind/1,                     % Kind: its work is held
+    held/1,                             % Work of these kinds
+    warned/0.                           % the pool has passed its maximum
 
 :- multifile
     typhon_time:adopt/2,
@@ -137,7 +150,7 @@ index of stamps is on the stack of the timer.
                                         % has no status, from Goals
     fire/2,                             % Agent, Token: an alarm went off
     over/2,                             % Agent, Token: this alarm is obsolete
-    kind/2,                             % Agent, Kind: its kind, see typhon_blocked
+    kind/2,                             % Agent, Kind: work that may block
     takes_turn/3,                       % Host, Agent, Work: Agent may run on Host
     next_turn/2,                        % Host, Work: a turn on Host is free for Work
     agent_parked/1,
@@ -457,6 +470,112 @@ mostly_free(Queue) :-
     message_queue_property(Queue, waiting(Idle)),
     setting(max_workers, Max),
     Count-Idle < min(Max, (Count+1)//2).
+
+                /*******************************
+                *    WORKERS THAT GOALS BLOCK   *
+                *******************************/
+
+%   Workers call blocked_held/1, and the thread of the timer the others.
+
+%   blocked_room(+Workers, +Max, -Room): the run queue is stuck, and all Workers
+%   are busy: Room more workers may be added.  At most Max workers are not
+%   blocked.
+
+blocked_room(Workers, Max, Room) :-
+    length(Workers, Count),
+    (   Count < Max
+    ->  Room is Max-Count,
+        retractall(warned)
+    ;   blocked(Workers, Blocked),
+        limit(Count, Max, Blocked, Limit),
+        length(Blocked, Apart),
+        Room is min(Max-(Count-Apart), Limit-Count)
+    ).
+
+limit(Count, Max, Blocked, Limit) :-
+    setting(blocked_workers, Most),
+    (   Count < Most
+    ->  Limit = Most,
+        warn(Count, Blocked)
+    ;   Limit is Most+Max,
+        hold(Count, blocked_workers, Blocked)
+    ).
+
+blocked(Workers, Blocked) :-
+    setting(blocked_seconds, Seconds),
+    monotonic_time(Now),
+    findall(What,
+            ( member(Worker, Workers),
+              turn_in(Worker, What, Since),
+              Now-Since > Seconds ),
+            Blocked).
+
+warn(_, []) :-
+    !.
+warn(_, _) :-
+    warned,
+    !.
+warn(Count, Blocked) :-
+    assertz(warned),
+    print_message(warning, typhon(workers_blocked(Count, Blocked))).
+
+%   blocked_full(+Workers, +Why): the run queue is stuck, and no worker can be
+%   added: hold work of the kinds that block.
+
+blocked_full(Workers, Why) :-
+    length(Workers, Count),
+    blocked(Workers, Blocked),
+    hold(Count, Why, Blocked).
+
+hold(Count, Why, Blocked) :-
+    findall(Kind,
+            ( member(What, Blocked),
+              kind_of(What, Kind),
+              \+ blocked_kind(Kind) ),
+            Kinds0),
+    sort(Kinds0, Kinds),
+    (   Kinds == []
+    ->  true
+    ;   forall(member(Kind, Kinds), assertz(blocked_kind(Kind))),
+        print_message(warning, typhon(pool_full(Count, Why, Blocked)))
+    ).
+
+kind_of(What, Kind) :-
+    (   kind(What, Kind0)
+    ->  Kind = Kind0
+    ;   Kind = goal(What)
+    ).
+
+%   blocked_held(+Work) is semidet: Work is of a kind that is held; keep it.
+
+blocked_held(Work) :-
+    work_of(Work, What),
+    kind_of(What, Kind),
+    with_mutex(typhon_blocked, keep(Kind, Work)).
+
+work_of(agent(Agent), Agent).
+work_of(agent(_, Agent), Agent).
+work_of(goal(_:Goal), Name) :-
+    functor(Goal, Name, _).
+
+keep(Kind, Work) :-
+    blocked_kind(Kind),
+    !,
+    assertz(held(Work)).
+
+%   blocked_release(-Works): stop holding work. Works is the work that was held.
+
+blocked_release(Works) :-
+    with_mutex(typhon_blocked, release(Works)).
+
+release(Works) :-
+    retractall(blocked_kind(_)),
+    findall(Work, held(Work), Works),
+    retractall(held(_)).
+
+blocked_forget :-
+    blocked_release(_),
+    retractall(warned).
 
                 /*******************************
                 *            TIMER             *
@@ -889,3 +1008,24 @@ prolog:message(typhon(alarm(Ball))) -->
 prolog:message(typhon(no_index(Count))) -->
     [ 'The timer has no memory for an index of ~D alarms, and is slow'-
       [Count] ].
+prolog:message(typhon(workers_blocked(Count, Blocked))) -->
+    { length(Blocked, Length) },
+    [ 'Native goals block ~D of ~D workers; the pool grows beyond its maximum.'-
+      [Length, Count], nl ],
+    blocked_agents(Blocked).
+prolog:message(typhon(pool_full(Count, Why, Blocked))) -->
+    [ '~D workers are blocked or busy, and no more can be added (~w).'-
+      [Count, Why], nl,
+      'Agents of the programs that block wait until workers are free.'-[],
+      nl ],
+    blocked_agents(Blocked).
+
+blocked_agents(Blocked) -->
+    { length(First, 10),
+      append(First, More, Blocked),
+      !,
+      length(More, Count)
+    },
+    [ 'Blocked: ~p and ~D more'-[First, Count] ].
+blocked_agents(Blocked) -->
+    [ 'Blocked: ~p'-[Blocked] ].
