@@ -14,14 +14,13 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(program/libraries,
             [ declared_meta/3, import_fault/2, import_operators/2,
               library_export/2, library_import/2, with_scratch_module/2 ]).
-:- reexport(program/places, [place/3]).
 :- reexport('program/reading').
 :- reexport(program/code,
             [ code_install/3, code_receive/2, code_module/2, code_known/2,
-              code_compiled/2, code_locate/2, code_names/2, code_places/2, code_program/2,
-              code_sent/2, code_clear/0, code_make/3, code_extras/2,
-              code_unwrapped/3, code_wrapped/3, native_body/4, program_hash/2,
-              sent_program/2 ]).
+              code_compiled/2, code_locate/2, code_names/2, code_places/2,
+              code_program/2, code_sent/2, code_clear/0, code_make/3,
+              code_extras/2, code_unwrapped/3, code_wrapped/3, native_body/4,
+              place/3, program_hash/2, sent_program/2 ]).
 :- reexport('program/mobile').
 :- reexport(program/machine,
             [answer_at/3, machine_ready/1, machine_run/3]).

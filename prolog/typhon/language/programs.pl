@@ -94,7 +94,7 @@ typhon_on_demand:joins(program, text).
 %   @arg Initial are the clauses of its state predicates: the state of an
 %        agent at birth.
 %   @arg Kinds is the result of mobile_predicates/3.
-%   @arg Places are the places of its clauses, see typhon_places.
+%   @arg Places are the places of its clauses, see typhon_code.
 %   @arg Sources are the files that were read, see source_terms/5.
 %   @arg Doubtful is doubtful(Located, Kinds, Once), for warnings that do
 %        not keep it from running: the terms as read, and problems that

@@ -15,6 +15,7 @@
             code_names/2,               % +Hash, -Lists
             code_make/3,                % +Program, +Kinds, -Module
             program_hash/2,             % +Program, -Hash
+            place/3,                    % +Places, +N, -Place
             native_body/4,              % +Body0, +Module, +Own, -Body
             code_clear/0
           ]).
@@ -23,14 +24,13 @@
 :- use_module(library(assoc), [get_assoc/3, list_to_assoc/2]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [domain_error/2]).
-:- use_module(library(lists), [append/3, member/2, memberchk/2]).
+:- use_module(library(lists), [append/3, member/2, memberchk/2, nth1/3]).
 :- use_module(library(occurs), [sub_term/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(sha), [hash_atom/2, sha_hash/3]).
 :- use_module(bodies, [body_goals/4, clause_parts/3, named/4]).
 :- use_module(libraries, [import_library/2, is_import/1]).
 :- use_module(mobile, [mobile_predicates/3]).
-:- use_module(places, [clauses_names/2, is_places/1]).
 :- use_module(thread_state, [is_confined/1, library_hook/0, program_base/1]).
 
 /** <module> Programs installed in this process
@@ -49,6 +49,13 @@ call(Goal).
 A mobile predicate p/N has, besides its native form, clauses
 `'mobile p'(A1, ..., AN, Goals, Rest, Barrier)`: facts that unfold a call into
 a goal list, see typhon_machine.  The table '$mobile'/6 maps calls to them.
+
+Places hold the file and the line of each clause of a program, in order.  They
+are a list of File-Lines, one for each run of clauses from one file, short
+enough to be sent with the program.  Where the names of variables are known,
+names(Lists) follows, with the names of the variables of each clause, in the
+order of term_variables/2.  Programs that do not come from a file have no
+places: [].  Two programs that differ only in places are the same.
 
 *Threading*: one mutex protects the tables; readers need none.  Libraries are
 loaded outside of it.
@@ -206,7 +213,7 @@ is_extra(Term) :-
 
 %!  code_locate(+Hash, +Places) is det.
 %
-%   Places are the places of the clauses of the program, see typhon_places.  If
+%   Places are the places of the clauses of the program.  If
 %   there are two files with the same clauses the first one counts.
 
 code_locate(Hash, Places) :-
@@ -476,3 +483,63 @@ bound_here(Goal, _, _) :-               % goals that could be autoloaded are not
     '$get_predicate_attribute'(system:Goal, system, 1).
 bound_here(Goal, Module, _) :-
     '$get_predicate_attribute'(Module:Goal, imported, _).
+
+                /*******************************
+                *            PLACES            *
+                *******************************/
+
+%   clauses_names(+Places, -Lists): Lists are lists of names of variables, one
+%   for each clause; [] if they are not known.
+
+clauses_names(Places, Lists) :-
+    (   memberchk(names(Lists0), Places)
+    ->  Lists = Lists0
+    ;   Lists = []
+    ).
+
+%!  place(+Places, +N:positive_integer, -Place) is semidet.
+%
+%   Place is the File:Line of the N-th clause.  Fails if it is not known.
+
+place([File-Lines|Places], N, Place) :-
+    length(Lines, Count),
+    (   nth1(N, Lines, Line)
+    ->  Place = File:Line
+    ;   Later is N-Count,
+        place(Places, Later, Place)
+    ).
+
+%   is_places(@Term) is semidet: Term has the form of places; it may come from a
+%   peer.
+
+is_places(Places) :-
+    is_list(Places),
+    maplist(is_part, Places).
+
+is_part(Part) :-
+    (   subsumes_term(names(_), Part)
+    ->  Part = names(Lists),
+        is_list(Lists),
+        maplist(is_names, Lists)
+    ;   run_of_lines(Part)
+    ).
+
+%   Names are printed unquoted, so they must be names of variables.
+
+is_names(Names) :-
+    is_list(Names),
+    forall(member(Name, Names), is_name(Name)).
+
+is_name(Name) :-
+    atom(Name),
+    atom_codes(Name, [First|Codes]),
+    ( First == 0'_ ; code_type(First, upper) ),
+    !,
+    forall(member(Code, Codes), code_type(Code, csym)).
+
+run_of_lines(Run) :-
+    subsumes_term(_-_, Run),
+    Run = File-Lines,
+    atom(File),
+    is_list(Lines),
+    forall(member(Line, Lines), integer(Line)).

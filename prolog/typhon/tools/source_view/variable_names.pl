@@ -13,7 +13,7 @@
 /** <module> The clauses of remaining goals, and the names of their variables
 
 Clauses and goals of agents are terms.  The names of the variables of a clause
-are stored with its place, see typhon_places; those of remaining goals follow
+are stored with its place, see typhon_code; those of remaining goals follow
 from the clauses from which the goals come.
 
 Bindings are Name=Variable, as of read_term/2.
