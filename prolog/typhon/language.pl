@@ -5,6 +5,7 @@
             files_beside/3,             % +File, +Dir, -Files
             in_file_order/3,            % +Problems, +Located, -Ordered
             library_directive/2,        % +Parts, -Library
+            library_export/2,           % +Library, ?Export
             part/3,                     % +What, +Parts, -Value
             payload_terms/3,            % +Located, -Payload, -Errors
             problem_error/3,            % +Problem, +Others, -Error
@@ -15,6 +16,7 @@
             source_terms/5              % +Spec, -Located, -Sources, -Errors,
                                         % -Warnings
           ]).
+:- reexport(language/library_data, [library_export/2]).
 :- reexport(language/programs,
             [ advice_text/2, file_parts/4, in_file_order/3,
               library_directive/2, part/3, payload_terms/3, problem_error/3,

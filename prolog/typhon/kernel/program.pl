@@ -12,8 +12,8 @@ This is the interface of the layer: higher layers import from here.
               named/4, plain_goal/2, special/2 ]).
 :- reexport(program/paths, [path_below/1]).
 :- reexport(program/libraries,
-            [ declared_meta/3, import_fault/2, import_operators/2,
-              library_export/2, library_import/2, with_scratch_module/2 ]).
+            [ add_operators/2, declared_meta/3, file_beginning/2, is_import/1,
+              library_file/2, prolog_file/3, with_scratch_module/2 ]).
 :- reexport('program/reading').
 :- reexport(program/code,
             [ code_install/3, code_receive/2, code_module/2, code_known/2,

@@ -56,8 +56,9 @@ its exports at the time of reading.
 :- use_module('../kernel/base/on_demand', [on_demand_load/2]).
 :- use_module('../kernel/base/prolog_faults', [forget_erased/0]).
 :- use_module('../kernel/program',
-              [ clause_parts/3, control/1, import_fault/2, indicator_in/2,
-                library_import/2, mobile_predicates/3, program_hash/2 ]).
+              [ clause_parts/3, control/1, indicator_in/2, mobile_predicates/3,
+                program_hash/2 ]).
+:- use_module(library_data, [import_fault/2, library_import/2]).
 :- use_module(source,
               [ declaration/4, program_file/2, reader_directive/1,
                 source_same/1, source_settled/1, source_terms/5 ]).

@@ -38,9 +38,9 @@ settled, and callers must not rely on it.
 :- autoload(library(filesex), [directory_file_path/3, directory_member/3]).
 :- use_module(library(lists), [member/2, memberchk/2, nth1/3]).
 :- use_module('../kernel/base/names', [names_near/3]).
-:- use_module('../kernel/program',
-              [import_operators/2, library_import/2, with_scratch_module/2]).
+:- use_module('../kernel/program', [with_scratch_module/2]).
 :- use_module(dict_calls, [dict_calls/2]).
+:- use_module(library_data, [import_operators/2, library_import/2]).
 
 :- multifile typhon_names:known/2.
 

@@ -1,15 +1,15 @@
 :- module(typhon_libraries,
-          [ library_import/2,           % +Directive, -Import
-            import_fault/2,             % +Import, -Formal
-            is_import/1,                % @Import
+          [ is_import/1,                % @Import
             import_library/2,           % +Module, +Import
-            import_operators/2,         % +Import, +Module
-            library_export/2,           % +Library, ?Export
+            library_file/2,             % +Library, -File
+            prolog_file/3,              % +Spec, +Options, -File
+            file_beginning/2,           % +File, -Directives
+            add_operators/2,            % +Terms, +Module
             declared_meta/3,            % +Module, +Head, -Meta
             with_scratch_module/2       % -Module, :Goal
           ]).
 :- use_module(library(error), [existence_error/2, permission_error/3]).
-:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(lists), [member/2]).
 
 /** <module> Libraries that programs import
 
@@ -25,25 +25,6 @@ that is not loaded is read from the directives at the beginning of its file.
 */
 
 :- meta_predicate with_scratch_module(-, 0).
-
-%!  library_import(+Directive, -Import) is semidet.
-%
-%   Import may be faulty, see import_fault/2.
-
-library_import(use_module(library(L)), library(L)-all) :-
-    ground(L).
-library_import(use_module(library(L), Imports), library(L)-Imports) :-
-    ground(L-Imports).
-
-%!  import_fault(+Import, -Formal) is semidet.
-%
-%   Formal is the reason why no program can have Import.
-
-import_fault(Library-Imports, domain_error(library_name, Library)) :-
-    \+ is_import(Library-Imports),
-    !.
-import_fault(Library-_, Formal) :-
-    catch(( library_file(Library, _), fail ), error(Formal, _), true).
 
 %!  is_import(@Import) is semidet.
 %
@@ -66,7 +47,7 @@ is_name(Folder/Name) :-
     is_name(Folder),
     is_name(Name).
 
-%   library_file(+Library, -File) is det.
+%!  library_file(+Library, -File) is det.
 %
 %   A symbolic link could lead out of the folder of libraries.  The folder
 %   itself may be one, as those of packs, and SWI-Prolog's own folder may have
@@ -86,6 +67,10 @@ library_file(library(Name), File) :-
     ->  permission_error(import, library, Name)
     ;   true
     ).
+
+%!  prolog_file(+Spec, +Options, -File) is semidet.
+%
+%   File is the source file of Spec, see absolute_file_name/3.
 
 prolog_file(Spec, Options, File) :-
     absolute_file_name(Spec, File,
@@ -114,39 +99,6 @@ import_library(Module, Library-Imports) :-
                 *      LIBRARIES AS DATA       *
                 *******************************/
 
-%!  library_export(+Library, ?Export) is nondet.
-%
-%   Library exports Export, Name/Arity or op(Priority, Type, Name).
-
-library_export(Library, Export) :-
-    catch(library_file(Library, File), error(_, _), fail),
-    file_export(File, Export).
-
-file_export(File, Export) :-
-    (   module_property(Module, file(File))
-    ->  member(Property, [exports(Exports), exported_operators(Exports)]),
-        module_property(Module, Property),
-        member(Export, Exports)
-    ;   beginning(File, Directives),
-        member(Directive, Directives),
-        directive_export(Directive, File, Export0),
-        plain_indicator(Export0, Export)
-    ).
-
-plain_indicator(Name//N, Name/Arity) :-
-    !,
-    plus(N, 2, Arity).
-plain_indicator(Export, Export).
-
-directive_export(Directive, _, Export) :-
-    ( Directive = module(_, Exports) ; Directive = reexport(_, Exports) ),
-    is_list(Exports),
-    member(Export, Exports).
-directive_export(reexport(Spec), File, Export) :-
-    prolog_file(Spec, [relative_to(File)], Other),
-    Other \== File,
-    file_export(Other, Export).
-
 %!  declared_meta(+Module, +Head, -Meta) is semidet.
 %
 %   meta_predicate(Meta) is declared for Head, which Module defines or imports,
@@ -164,7 +116,7 @@ declared_meta(_, Head, Meta) :-
     functor(Meta, Name, Arity),
     (   module_property(Library, file(File))
     ->  declared_meta(Library, Head, Meta)
-    ;   beginning(File, Directives),
+    ;   file_beginning(File, Directives),
         member(meta_predicate(Metas), Directives),
         comma_member(Meta, Metas)
     ),
@@ -175,9 +127,11 @@ comma_member(X, (A,B)) :-
     ( comma_member(X, A) ; comma_member(X, B) ).
 comma_member(X, X).
 
-%   beginning(+File, -Directives): those before the first clause of File.
+%!  file_beginning(+File, -Directives) is det.
+%
+%   Directives are those before the first clause of File.
 
-beginning(File, Directives) :-
+file_beginning(File, Directives) :-
     with_scratch_module(Module,
                         setup_call_cleanup(
                             open(File, read, In, [encoding(utf8)]),
@@ -213,16 +167,9 @@ with_scratch_module(Module, Goal) :-
         once(Goal),
         '$destroy_module'(Module)).
 
-%!  import_operators(+Import, +Module) is det.
+%!  add_operators(+Terms, +Module) is det.
 %
-%   Add the operators of a library to Module.
-
-import_operators(Library-Imports, Module) :-
-    findall(op(P, T, Name),
-            ( library_export(Library, op(P, T, Name)),
-              \+ ( is_list(Imports), \+ memberchk(op(P, T, Name), Imports) ) ),
-            Operators),
-    add_operators(Operators, Module).
+%   Add the operators among Terms to Module.
 
 add_operators(Terms, Module) :-
     forall(member(op(P, T, Name), Terms),

@@ -12,10 +12,11 @@
 :- use_module('../../kernel/base/names', [names_near/3]).
 :- use_module('../../kernel/program',
               [ body_calls/2, built_in/1, clause_parts/3, code_program/2,
-                indicator_in/2, library_export/2, near_built_in/2 ]).
+                indicator_in/2, near_built_in/2 ]).
 :- use_module('../../language',
               [ advice_text/2, file_parts/4, in_file_order/3,
-                library_directive/2, part/3, problem_error/3, source_same/1 ]).
+                library_directive/2, library_export/2, part/3, problem_error/3,
+                source_same/1 ]).
 :- use_module(goal_lines, [problem_at_goal/2]).
 :- use_module(lost_choices, [lost_choice/3]).
 
