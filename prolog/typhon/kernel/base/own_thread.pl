@@ -105,7 +105,7 @@ uncounted(Goal) :-
 ask_thread(Goal, Queue) :-
     catch(thread_create(typhon_own_thread:answered(alone(Goal), Queue), _,
                         [detached(true)]),
-          error(resource_error(_), _), fail),
+          error(_, _), fail),
     !.
 ask_thread(Goal, Queue) :-
     answered(Goal, Queue).
