@@ -56,6 +56,7 @@ job(hops, [env], unpinned).
 job(hops, [taskset, '-c', '0'], same_cpu).
 job(hops, [taskset, '-c', '0'], one_each).
 job(messages, [env], unpinned).
+job(counts, [env], unpinned).
 job(fipa, [env], unpinned).
 job(mqtt, [env], unpinned).
 job(strangers, [env], unpinned).
