@@ -513,7 +513,7 @@ objection_answered(Session, Number, Answer) :-
 session_send(Session, Term) :-
     frame_bytes(Session, Term, Bytes),
     answers_first(Session),
-    send_bytes(Session, Bytes, none).
+    send_bytes(Session, Bytes, none, now).
 
 %!  session_answer(+Session, +Term) is det.
 %
@@ -535,11 +535,16 @@ unless_closed(Goal) :-
 is_closed(session_closed).
 is_closed(existence_error(_, open)).    % the store
 
-send_bytes(Session, Bytes, Token) :-
-    (   durable_on
-    ->  send_committed(Session, Bytes, Token, now)
-    ;   session_locked(Session, put_frame(Session, Bytes, Token, flush))
-    ).
+%   send_bytes(+Session, +Bytes, +Token, +When): as put_frame/4, with a journal
+%   after the commit.  When is also that of send_after_commit/2.
+
+send_bytes(Session, Bytes, Token, When) :-
+    durable_on,
+    !,
+    session_must_exist(Session, _, _),
+    send_after_commit(frame(Session, Bytes, Token), When).
+send_bytes(Session, Bytes, Token, When) :-
+    session_locked(Session, put_frame(Session, Bytes, Token, When)).
 
 %!  session_send_with(+Session, +Term) is det.
 %
@@ -559,7 +564,7 @@ session_send_with(Session, Term) :-
     ->  Token = loose
     ;   Token = none
     ),
-    send_bytes(Session, Bytes, Token).
+    send_bytes(Session, Bytes, Token, now).
 
 %!  session_hand(+Session, +Kind, +Term, -Hand) is det.
 %
@@ -579,7 +584,7 @@ session_hand(Session, Kind, Term, hand(Session, Bytes)) :-
 
 endpoint_hand_over(hand(Session, Bytes), Token) :-
     answers_first(Session),
-    session_held(Session, put_frame(Session, Bytes, Token, flush)).
+    session_held(Session, put_frame(Session, Bytes, Token, now)).
 
 %!  endpoint_hand_to(+Hand, -Process) is det.
 %
@@ -605,7 +610,7 @@ endpoint_handed(hand(Session, Bytes), Term) :-
 
 session_mark(Session, Token) :-
     frame_bytes(Session, bundle([]), Bytes),
-    session_locked(Session, put_frame(Session, Bytes, Token, flush)).
+    session_locked(Session, put_frame(Session, Bytes, Token, now)).
 
 %!  session_object(+Session, +Answer) is det.
 %
@@ -618,7 +623,7 @@ session_object(Session, Answer) :-
     Number is Count+1,
     frame_bytes(Session, objection(Number, Answer), Bytes),
     unless_closed(session_locked(Session,
-                                 put_frame(Session, Bytes, none, flush))),
+                                 put_frame(Session, Bytes, none, now))),
     session_owes.
 
 %!  session_owes is det.
@@ -663,18 +668,12 @@ session_send_later(Session, Term) :-
     nb_current(typhon_later, Later),
     !,
     frame_bytes(Session, Term, Bytes),
-    unless_closed(buffer(Session, Bytes)),
+    unless_closed(send_bytes(Session, Bytes, none, later)),
     arg(2, Later, Count0),
     Count is Count0+1,
     nb_setarg(2, Later, Count).
 session_send_later(Session, Term) :-
     session_answer(Session, Term).
-
-buffer(Session, Bytes) :-
-    (   durable_on
-    ->  send_committed(Session, Bytes, none, later)
-    ;   session_locked(Session, put_frame(Session, Bytes, none, buffer))
-    ).
 
 %!  session_later_begin(+Session) is det.
 %
@@ -746,13 +745,6 @@ session_acknowledge(Session) :-
                 *           COMMITTED          *
                 *******************************/
 
-%   send_committed(+Session, +Bytes, +Token, +When): as put_frame/4, after the
-%   commit.  When is that of send_after_commit/2.
-
-send_committed(Session, Bytes, Token, When) :-
-    session_must_exist(Session, _, _),
-    send_after_commit(frame(Session, Bytes, Token), When).
-
 %   All frames are written to buffers before the first buffer is flushed.
 
 typhon_durable:committed(Frames) :-
@@ -763,7 +755,7 @@ typhon_durable:committed(Frames) :-
            session_locked(Session, flush_out(Key))).
 
 put_committed(frame(Session, Bytes, Token)) :-
-    catch(session_locked(Session, put_frame(Session, Bytes, Token, buffer)),
+    catch(session_locked(Session, put_frame(Session, Bytes, Token, later)),
           error(session_closed, _),
           true).                        % its requests have their results
 
@@ -771,18 +763,18 @@ put_committed(frame(Session, Bytes, Token)) :-
                 *           WRITING            *
                 *******************************/
 
-%   put_frame(+Session, +Bytes, +Token, +Flush): write Bytes, or let them wait;
-%   Flush is `flush` or `buffer`. If Token is `loose`, Bytes may be held, and
-%   be bundled with others.
+%   put_frame(+Session, +Bytes, +Token, +When): write Bytes, or let them wait;
+%   the buffer is flushed `now` or `later`. If Token is `loose`, Bytes may be
+%   held, and be bundled with others.
 
-put_frame(Session, Bytes, Token, Flush) :-
+put_frame(Session, Bytes, Token, When) :-
     session_must_exist(Session, Key, Window),
     (   Token == loose,
         holds(Session, Key)
     ->  window_wait(Window, Bytes, loose)
     ;   writable(Key, Thread, Out),
         window_sent(Window, Out, Bytes, Token, Counts)
-    ->  written(Flush, Key, Thread, Out, Counts, Bytes)
+    ->  written(When, Key, Thread, Out, Counts, Bytes)
     ;   window_wait(Window, Bytes, Token),
         write_or_connect(Session, Key)
     ).
@@ -845,15 +837,15 @@ transport_broken(Key, Thread) :-
     retractall(transport(Key, Thread, _)),
     wire_thread_signal(Thread, broken).
 
-written(Flush, Key, Thread, Out, Counts, Bytes) :-
-    catch(write_out(Flush, Out, Counts, Bytes),
+written(When, Key, Thread, Out, Counts, Bytes) :-
+    catch(write_out(When, Out, Counts, Bytes),
           error(_, _),
           transport_broken(Key, Thread)).
 
-write_out(flush, Out, Counts, Bytes) :-
+write_out(now, Out, Counts, Bytes) :-
     frame_write(Out, Counts, Bytes),
     flush_output(Out).
-write_out(buffer, Out, Counts, Bytes) :-
+write_out(later, Out, Counts, Bytes) :-
     frame_write(Out, Counts, Bytes).
 
 %   put_control(+Session, +Kind, +Bytes): write Bytes outside the count, before
@@ -865,7 +857,7 @@ put_control(Session, Kind, Bytes) :-
     Session = session(Key, _, _, _, _, Window),
     (   writable(Key, Thread, Out),
         window_control(Window, Out, room, Bytes, Counts)
-    ->  written(flush, Key, Thread, Out, Counts, Bytes)
+    ->  written(now, Key, Thread, Out, Counts, Bytes)
     ;   session_up(Key)
     ->  control_add(Key, Kind, Bytes),
         push_what_waits(Session, Key)
