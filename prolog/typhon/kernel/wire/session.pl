@@ -1,7 +1,6 @@
 :- module(typhon_session,
           [ session/2,                  % ?Key, -Session
             session_open/4,             % +Key, +Peer, +Codec, -Session
-            session_forget/1,           % +Session
             session_key/2,              % +Session, -Key
             session_to_self/1,          % +Session
             session_codec/2,            % +Session, -Codec
@@ -246,18 +245,6 @@ open_session(Key, Hello, Proof, Codec, Session) :-
                       peer(Process, Address, Proof), Window),
     assertz(session(Key, Session)).
 
-%!  session_forget(+Session) is semidet.
-%
-%   Remove Session; fails if it was removed already. The mutexes are left to the
-%   garbage collector: another thread may wait for them.
-
-session_forget(Session) :-
-    session_key(Session, Key),
-    with_mutex(typhon_session,
-               ( retract(session(Key, Session)),
-                 retractall(route(_, Session)) )),
-    debug(typhon(session), '~w: forgotten', [Key]).
-
 %   session_must_exist(+Session, -Key, -Window): Session has not been closed;
 %   another session may have its key by now.
 
@@ -475,17 +462,13 @@ session_pending(Session, Count) :-
 %   first objection counts, and none to a frame that is not under way.
 
 session_objected(Session, Number, Answer) :-
-    session_key(Session, Key),
+    Session = session(Key, _, _, _, _, Window),
     (   integer(Number),
         \+ objection(Key, Number, _),
-        ( unsettled(Key, Number, _) ; under_way(Session, Number) )
+        ( unsettled(Key, Number, _) ; window_under_way(Window, Number) )
     ->  assertz(objection(Key, Number, Answer))
     ;   true
     ).
-
-under_way(Session, Number) :-
-    session_window(Session, Window),
-    window_under_way(Window, Number).
 
 %!  objection_answered(+Session, +Number, +Answer) is semidet.
 %
@@ -1088,8 +1071,14 @@ session_close(Session, Unsent) :-
             Terms),
     append(Terms, Handed, Unsent).
 
+%   The mutexes are left to the garbage collector: another thread may wait for
+%   them.
+
 forget(Session, Waiting, Handed) :-
-    session_forget(Session),
     Session = session(Key, _, _, _, _, Window),
+    with_mutex(typhon_session,
+               ( retract(session(Key, Session)),
+                 retractall(route(_, Session)) )),
+    debug(typhon(session), '~w: forgotten', [Key]),
     window_close(Window, Waiting, Sent, NotSent),
     settled_never(Key, Sent, NotSent, Handed).

@@ -28,10 +28,7 @@ with_window(Session, Window, Out, Goal) :-
         ( close(Out), ignore(closed(Session, _)) )).
 
 closed(Session, Handed) :-
-    session_forget(Session),
-    typhon_session:session_window(Session, Window),
-    window_close(Window, _, Sent, Unsent),
-    typhon_session:settled_never(key, Sent, Unsent, Handed).
+    typhon_session:forget(Session, _, Handed).
 
 received(Session, Count) :-
     forall(between(1, Count, _), session_count(Session, _)).
