@@ -99,7 +99,7 @@ post_meanwhile(Address, Note, Count, Most0, Most) :-
 
 sample(most(Two0, One0, Twice0), most(Two, One, Twice)) :-
     once(typhon_session:session(_, Session)),
-    typhon_session:session_unacked(Session, Kept),
+    typhon_session:session_pending(Session, Kept),
     get_flag(received, Received),
     get_flag(settled, Settled),
     Behind is max(0, Received-Settled),

@@ -60,14 +60,15 @@ thread of a client reports its progress and returns its own.
 :- use_module(session,
               [ connection_is/2, route_add/2, session_adopting/2,
                 session_install/4, session_left/0, session_lost/2,
-                session_open/4, session_peer/3, session_received/2,
-                session_retire/1, session_to_self/1, session_up_since/2 ]).
+                session_open/4, session_peer/3, session_retire/1,
+                session_to_self/1, session_up_since/2, session_window/2 ]).
 :- use_module(threads,
               [ manager_notify/1, wire_thread_create/4, wire_thread_running/1,
                 wire_thread_signal/2 ]).
 :- use_module(transport,
               [ line_read/3, line_write/2, refusal_text/2, transport_close/0,
                 transport_first/2, transport_octets/1, transport_open/6 ]).
+:- use_module(window, [window_received/2]).
 
 :- setting(typhon_acceptor:unproved, positive_integer, 128,
            "Connections at a time that have not proved themselves").
@@ -328,7 +329,8 @@ install(Session, Out, Count) :-
                  connection_is(Session, up) )).
 
 send_count(Session, Out) :-
-    session_received(Session, Count),
+    session_window(Session, Window),
+    window_received(Window, Count),
     format(string(Line), "resume ~d", [Count]),
     line_write(Out, Line).
 

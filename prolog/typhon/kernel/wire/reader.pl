@@ -49,17 +49,18 @@ thread that takes it first.
               [ dispatch/2, dispatch_all/2, handed_over/2,
                 session_unfinished/1 ]).
 :- use_module(session,
-              [ debug_frame/4, session_ack_due/2, session_acknowledge/1,
-                session_adopting/2, session_codec/2, session_control/2,
-                session_count/2, session_key/2, session_later/1,
-                session_later_begin/1, session_lost/2, session_object/2,
-                session_peer/3, session_push/1, session_received/2,
-                session_release/1, session_settled/4 ]).
+              [ debug_frame/4, session_acknowledge/1, session_adopting/2,
+                session_codec/2, session_control/2, session_key/2,
+                session_later/1, session_later_begin/1, session_lost/2,
+                session_object/2, session_peer/3, session_push/1,
+                session_release/1, session_settled/4, session_window/2 ]).
 :- use_module(threads,
               [ in_background/2, manager_notify/1, wire_thread_leaves/1,
                 wire_thread_obey/1 ]).
 :- use_module(transport, [transport_forget/0, transport_input/2]).
-:- use_module(window, [ack_frames/1]).
+:- use_module(window,
+              [ ack_frames/1, window_ack_due/2, window_count/2,
+                window_received/2 ]).
 
 :- setting(silence, number, 5,
            "Seconds of silence before a peer is pinged").
@@ -189,12 +190,13 @@ push_late(Session, In) :-
 
 skip(Session, Which) :-
     session_key(Session, Key),
-    session_received(Session, Count),
+    session_window(Session, Window),
+    window_received(Window, Count),
     times_damaged(Key, Count, Which, Times),
     (   Times < 3
     ->  throw(error(syntax_error(damaged_frame), Which))
     ;   sig_atomic(( session_object(Session, spoilt),
-                     session_count(Session, _) )),
+                     window_count(Window, _) )),
         session_peer(Session, _, Address),
         report(error, skipped_frames, Address,
                typhon(endpoint, skipped(Address)))
@@ -224,7 +226,8 @@ next(In, Max, Counts, Bytes) :-
 %   Three silences in a row are too many while an answer is due.
 
 silent(Session, In, State) :-
-    (   session_ack_due(Session, 0)
+    session_window(Session, Window),
+    (   window_ack_due(Window, 0)
     ->  true
     ;   acknowledge(Session, In, State) % the peer need not keep the frames
     ),
@@ -276,11 +279,13 @@ handle(Bundle, Session, In, State) :-
     Bundle = bundle(_),
     take_bundle(Bundle, Session),
     !,
-    session_count(Session, _),
+    session_window(Session, Window),
+    window_count(Window, _),
     acknowledge(Session, In, State).
 handle(Frame, Session, In, State) :-
     dispatch(Session, Frame),
-    session_count(Session, AckDue),
+    session_window(Session, Window),
+    window_count(Window, AckDue),
     acknowledge_now_and_then(AckDue, Session, In, State).
 
 %   The reader acknowledges after ack_frames/1 frames, or after half of the bytes

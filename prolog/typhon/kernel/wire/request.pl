@@ -48,9 +48,10 @@ it is answered once.
 :- use_module(session,
               [ objection_answered/3, session_answer/2, session_key/2,
                 session_object/2, session_objected/3, session_owes/0,
-                session_peer/3, session_pending/2, session_received/2,
-                session_send/2, session_send_later/2, session_to_self/1 ]).
+                session_peer/3, session_pending/2, session_send/2,
+                session_send_later/2, session_to_self/1, session_window/2 ]).
 :- use_module(transport, [transport_as/2, transport_proof/1]).
+:- use_module(window, [window_received/2]).
 
 :- meta_predicate
     request_send(+, +, +, 1),
@@ -237,7 +238,8 @@ verdict(accepted, _, _, _, _) :-
 verdict(deferred, Kind, Term, Peer, Session) :-
     !,
     session_object(Session, deferred),
-    session_received(Session, Count),
+    session_window(Session, Window),
+    window_received(Window, Count),
     Id is -(Count+1),
     dispatch_request(Id, Kind, Term, Peer, Session),
     session_owes.                       % the answer was sent without the count

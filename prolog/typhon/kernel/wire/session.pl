@@ -4,10 +4,7 @@
             session_key/2,              % +Session, -Key
             session_to_self/1,          % +Session
             session_codec/2,            % +Session, -Codec
-            session_received/2,         % +Session, -Count
-            session_count/2,            % +Session, -AckDue
-            session_ack_due/2,          % +Session, -Count
-            session_unacked/2,          % +Session, -Count
+            session_window/2,           % +Session, -Window
             session_peer/3,             % +Session, -Process, -Address
             session_proof/2,            % +Session, -Proof
             session_adopting/2,         % +Session, :Goal
@@ -106,9 +103,9 @@ has no pusher, only held posts wait.
               [ manager_notify/1, wire_thread_create/3, wire_thread_end/2,
                 wire_thread_signal/2 ]).
 :- use_module(window,
-              [ window_ack_due/2, window_acked/4, window_ahead/3,
-                window_close/4, window_control/5, window_count/2,
-                window_counts/4, window_next/6, window_open/1, window_owed/2,
+              [ window_acked/4, window_ahead/3, window_close/4,
+                window_control/5, window_counts/4, window_next/6,
+                window_open/1, window_owed/2,
                 window_received/2, window_resumed/5, window_sent/5,
                 window_settled/1, window_unacked/2, window_under_way/2,
                 window_wait/3, window_waiting/1 ]).
@@ -167,42 +164,12 @@ session_to_self(session(self_server, _, _, _, _, _)).
 
 session_codec(session(_, Codec, _, _, _, _), Codec).
 
-%   session_window(+Session, -Window): Window is that of window.pl.
+%!  session_window(+Session, -Window) is det.
+%
+%   Window is that of window.pl.  Other modules only read its counts, and count
+%   received frames.
 
 session_window(session(_, _, _, _, _, Window), Window).
-
-%!  session_received(+Session, -Count) is det.
-%
-%   Count frames of the peer have been received.
-
-session_received(Session, Count) :-
-    session_window(Session, Window),
-    window_received(Window, Count).
-
-%!  session_count(+Session, -AckDue) is det.
-%
-%   For the thread of the connection: count one more frame as received. Then
-%   AckDue are not acknowledged yet.
-
-session_count(Session, AckDue) :-
-    session_window(Session, Window),
-    window_count(Window, AckDue).
-
-%!  session_ack_due(+Session, -Count) is det.
-%
-%   Count received frames are not acknowledged yet.
-
-session_ack_due(Session, Count) :-
-    session_window(Session, Window),
-    window_ack_due(Window, Count).
-
-%!  session_unacked(+Session, -Count) is det.
-%
-%   Count frames wait, or are not acknowledged.
-
-session_unacked(Session, Count) :-
-    session_window(Session, Window),
-    window_unacked(Window, Count).
 
 %!  session_peer(+Session, -Process, -Address) is det.
 %
@@ -452,8 +419,8 @@ settled_never(Key, Sent, Unsent, Handed) :-
 %   Count frames are not acknowledged, or are hand-overs that are not settled.
 
 session_pending(Session, Count) :-
-    session_key(Session, Key),
-    session_unacked(Session, Count0),
+    Session = session(Key, _, _, _, _, Window),
+    window_unacked(Window, Count0),
     ( unsettled(Key, _, _) -> Count is Count0+1 ; Count = Count0 ).
 
 %!  session_objected(+Session, +Number, +Answer) is det.
@@ -602,7 +569,8 @@ session_mark(Session, Token) :-
 %   overtake it.
 
 session_object(Session, Answer) :-
-    session_received(Session, Count),
+    session_window(Session, Window),
+    window_received(Window, Count),
     Number is Count+1,
     frame_bytes(Session, objection(Number, Answer), Bytes),
     unless_closed(session_locked(Session,

@@ -22,7 +22,7 @@ with_window(Session, Window, Out, Goal) :-
     Hello = hello(p, 1, 'h:1', 90004, 64, none),
     setup_call_cleanup(
         ( session_open(key, Hello-cookie, text, Session),
-          typhon_session:session_window(Session, Window),
+          session_window(Session, Window),
           open_null_stream(Out) ),
         once(Goal),
         ( close(Out), ignore(closed(Session, _)) )).
@@ -31,7 +31,8 @@ closed(Session, Handed) :-
     typhon_session:forget(Session, _, Handed).
 
 received(Session, Count) :-
-    forall(between(1, Count, _), session_count(Session, _)).
+    session_window(Session, Window),
+    forall(between(1, Count, _), window_count(Window, _)).
 
 %   hands_over(+Window, +Out, +Token): a frame of 10 bytes.
 

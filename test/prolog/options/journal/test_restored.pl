@@ -423,11 +423,11 @@ answered_later(Written, Dir) :-
           typhon_session:session(self_server, Session),
           typhon_session:session_later_begin(Session),
           sync_changes,
-          typhon_session:session_unacked(Session, Before),
+          typhon_session:session_pending(Session, Before),
           with_mutex(typhon_commit,     % no other thread commits
                      ( change(put(1, 1)),
                        typhon_session:session_send_later(Session, bundle([])),
-                       typhon_session:session_unacked(Session, After) )),
+                       typhon_session:session_pending(Session, After) )),
           Written is After-Before,
           nb_delete(typhon_later) )).
 
