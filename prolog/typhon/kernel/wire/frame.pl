@@ -161,14 +161,15 @@ term_bytes(fast, Term, Bytes) :-
     !,                                  % 10.1.12 decodes 1r3 as 3
     term_bytes(text, Term, Bytes).
 term_bytes(fast, Term, Bytes) :-
-    (   serialized(Term, Body)
-    ->  (   string_length(Body, Length),
-            Length > 65536
-        ->  marked(0'!, Term, Body, Bytes)
-        ;   Bytes = Body
-        )
-    ;   refuse(Term)
+    serialized(Term, Body),
+    !,
+    (   string_length(Body, Length),
+        Length > 65536
+    ->  marked(0'!, Term, Body, Bytes)
+    ;   Bytes = Body
     ).
+term_bytes(fast, Term, _) :-
+    refuse(Term).
 term_bytes(text, Term, Bytes) :-
     mobile_term(Term),
     term_text(Term, Body),
@@ -262,17 +263,14 @@ mark_kind(=, Id, answer(Id)).
 mobile_term(Term) :-
     (   acyclic_term(Term),
         term_attvars(Term, []),
-        catch(fast_term_serialized(Term, _),
-              error(permission_error(_, _, _), _), fail)
+        serialized(Term, _)
     ->  true
     ;   refuse(Term)
     ).
 
 refuse(Term) :-
-    (   culprit(Term, Culprit)
-    ->  type_error(mobile_term, Culprit)
-    ;   type_error(mobile_term, Term)
-    ).
+    once(( culprit(Term, Culprit) ; Culprit = Term )),
+    type_error(mobile_term, Culprit).
 
 culprit(Term, Term) :-
     is_in_itself(Term),
@@ -287,14 +285,9 @@ culprit(Term, Term) :-
     !.
 culprit(Term, Culprit) :-
     compound(Term),
-    compound_name_arguments(Term, _, Args),
-    member_culprit(Args, Culprit).
-
-member_culprit([Arg|Args], Culprit) :-
-    (   culprit(Arg, Culprit0)
-    ->  Culprit = Culprit0
-    ;   member_culprit(Args, Culprit)
-    ).
+    arg(_, Term, Arg),
+    culprit(Arg, Culprit),
+    !.
 
 		 /*******************************
 		 *            BUNDLES           *
@@ -318,8 +311,8 @@ bundle_fits(Bytes) :-
 %!  bundle_next(+Queue, +Codec, +Space, -Frame, -Many) is semidet.
 %
 %   Take the next Frame of Queue, frame(Bytes, Token, Settled): fails if there
-%   is none, or if it is longer than Space, a number of bytes or `inf`.  Many is
-%   `true` if it is a bundle.
+%   is none, or if it is longer than Space, a number of bytes.  Many is `true` if
+%   it is a bundle.
 
 bundle_next(Queue, Codec, Space, Frame, Many) :-
     thread_peek_message(Queue, Next),
@@ -353,18 +346,13 @@ parts(Most, Space0, Queue, Settled0, Parts, Settled) :-
         Length =< Space0
     ->  thread_get_message(Queue, _),
         Parts = [Part|More],
-        space_left(Space0, Length, Space),
+        part_overhead(Overhead),
+        Space is Space0-Length-Overhead,
         Most1 is Most-1,
         parts(Most1, Space, Queue, Settled1, More, Settled)
     ;   Parts = [],
         Settled = Settled0
     ).
-
-space_left(inf, _, inf) :-
-    !.
-space_left(Space0, Length, Space) :-
-    part_overhead(Overhead),
-    Space is Space0-Length-Overhead.
 
 %!  bundle_parts(+Bundle, -Parts:list) is semidet.
 %

@@ -107,14 +107,14 @@ window_sent(Window, Out, Bytes, Token, counts(Count, Count)) :-
     set_flag(Settled, Count).
 
 %   space(+Most, +Window, +Out, -Space): the bytes that can be written to Out if
-%   Most is `room`, or `inf` if it is `all`.  As long as no more than 64 kB are
-%   under way, writing does not block.
+%   Most is `room`, more than any frame has if it is `all`.  As long as no more
+%   than 64 kB are under way, writing does not block.
 
 space(room, window(_, _, _, _, _, AckedBytes, _, _), Out, Space) :-
     byte_count(Out, Written),
     get_flag(AckedBytes, Acked),
     Space is 65536-(Written-Acked).
-space(all, _, _, inf).
+space(all, _, _, 0x100000000).
 
 %!  window_wait(+Window, +Bytes, +Token) is det.
 %

@@ -447,7 +447,7 @@ with_queue(Frames, Queue, Goal) :-
         message_queue_destroy(Queue)).
 
 all_that_waits(Queue, Frames) :-
-    (   bundle_next(Queue, fast, inf, Frame, _)
+    (   bundle_next(Queue, fast, 100 000, Frame, _)
     ->  Frames = [Frame|More],
         all_that_waits(Queue, More)
     ;   Frames = []
@@ -457,7 +457,7 @@ all_that_waits(Queue, Frames) :-
 
 test(unmarked_frames_are_bundled, true(Many-Left == true-0)) :-
     with_queue([frame("a", loose, 1), frame("b", loose, 2)], Queue,
-               ( bundle_next(Queue, fast, inf, frame(Bytes, none, 2), Many),
+               ( bundle_next(Queue, fast, 100 000, frame(Bytes, none, 2), Many),
                  message_queue_property(Queue, size(Left)) )),
     fast_term_serialized(Bundle, Bytes),
     bundle_parts(Bundle, Parts),
@@ -488,6 +488,6 @@ test(bundle_has_at_most_a_hundred_frames, true(Count == 3)) :-
     with_queue(Frames0, Queue,
                ( all_that_waits(Queue, Frames), length(Frames, Count) )).
 test(empty_queue, fail) :-
-    with_queue([], Queue, bundle_next(Queue, fast, inf, _, _)).
+    with_queue([], Queue, bundle_next(Queue, fast, 100 000, _, _)).
 
 :- end_tests(queued_frames).
