@@ -272,21 +272,33 @@ refuse(Term) :-
     once(( culprit(Term, Culprit) ; Culprit = Term )),
     type_error(mobile_term, Culprit).
 
+%   A term is searched for cycles in time proportional to its size: so parts of
+%   a tree are not.
+
 culprit(Term, Term) :-
     is_in_itself(Term),
     !.
-culprit(Term, Term) :-
+culprit(Term, Culprit) :-
+    cyclic_term(Term),
+    !,
+    arg(_, Term, Arg),
+    culprit(Arg, Culprit),
+    !.
+culprit(Term, Culprit) :-
+    tree_culprit(Term, Culprit).
+
+tree_culprit(Term, Term) :-
     attvar(Term),
     !.
-culprit(Term, Term) :-
+tree_culprit(Term, Term) :-
     blob(Term, Type),
     Type \== text,
     Type \== reserved_symbol,
     !.
-culprit(Term, Culprit) :-
+tree_culprit(Term, Culprit) :-
     compound(Term),
     arg(_, Term, Arg),
-    culprit(Arg, Culprit),
+    tree_culprit(Arg, Culprit),
     !.
 
 		 /*******************************

@@ -2,7 +2,7 @@
 
 :- use_module('../../../lib/common').
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists), [member/2, nth1/4, numlist/3]).
+:- use_module(library(lists), [append/3, member/2, nth1/4, numlist/3]).
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(random), [random_between/3, random_member/2]).
@@ -129,6 +129,18 @@ test(encoding_refuses_too, [forall(member(Codec, [fast, text])),
                             error(type_error(mobile_term, Stream))]) :-
     stream_property(Stream, alias(user_error)),
     term_bytes(Codec, f(Stream), _).
+test(parts_of_a_tree_are_not_searched_for_cycles, Searches == 1) :-
+    numlist(1, 100, Numbers),
+    stream_property(Stream, alias(user_error)),
+    append(Numbers, [Stream], Term),
+    set_flag(searches, 0),
+    setup_call_cleanup(
+        wrap_predicate(typhon_error_text:is_in_itself(_), counted, Body,
+                       ( flag(searches, N, N+1), Body )),
+        catch(mobile_term(Term), error(type_error(_, Named), _), true),
+        unwrap_predicate(typhon_error_text:is_in_itself/1, counted)),
+    assertion(Named == Stream),
+    get_flag(searches, Searches).
 test(other_terms_can_travel, [forall(special(Term))]) :-
     mobile_term(Term).
 
