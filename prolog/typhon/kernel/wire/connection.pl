@@ -111,11 +111,7 @@ incoming(In, Out, Ip, Stage, Me) :-
 await_first_byte(In, Out) :-
     setting(typhon_handshake:handshake_time, Seconds),
     set_stream(In, timeout(Seconds)),
-    peek_code(In, Byte),
-    (   Byte == -1
-    ->  syntax_error(end_of_file)
-    ;   transport_first(Byte, Out)
-    ).
+    first_byte(In, Out).
 
 proves(Stage) :-
     call(Stage, proved),
@@ -389,20 +385,14 @@ is_normal_break(Formal) :-
     harmless(Formal).
 
 prolog:message(typhon(endpoint, foreign(Address, Formal))) -->
-    { arg(3, Formal, Why),
-      refusal_text(Why, Text)
-    },
-    !,
-    [ 'Endpoint: no connection with ~w: ~w'-[Address, Text] ].
-prolog:message(typhon(endpoint, foreign(Address, Formal))) -->
-    { arg(3, Formal, other) },
-    !,
-    [ 'Endpoint: no connection with ~w: it claims to be another process'
-      -[Address] ].
-prolog:message(typhon(endpoint, foreign(Address, Formal))) -->
     { arg(3, Formal, version(Theirs)) },
+    !,
     [ 'Endpoint: ~w speaks another version of the protocol, ~w'
       -[Address, Theirs] ].
+prolog:message(typhon(endpoint, foreign(Address, Formal))) -->
+    { arg(3, Formal, Why) },
+    [ 'Endpoint: no connection with ~w: '-[Address] ],
+    why(Why).
 prolog:message(typhon(endpoint, broken(Address, Formal))) -->
     [ 'Endpoint: connection with ~w broken: ~p'-[Address, Formal] ].
 
@@ -445,37 +435,34 @@ accept_failed(Formal) :-
     sleep(0.1).
 
 admit(Client, Ip, Me) :-
-    catch(open_streams(Client, In, Out),
+    catch(( open_streams(Client, In, Out),
+            let_in(In, Out, Ip, Me, Evicted) ),
           error(Formal, _),
           refused(Ip, Formal)),
-    (   nonvar(In)
-    ->  admit(In, Out, Ip, Me)
-    ;   true
-    ).
-
-admit(In, Out, Ip, Me) :-
-    catch(let_in(In, Out, Ip, Me, Evicted),
-          error(Formal, _),
-          ( close_streams(In, Out),
-            refused(Ip, Formal) )),
     (   nonvar(Evicted)
     ->  refused(Evicted, silent)
     ;   true
     ).
 
 let_in(In, Out, Ip, Me, Evicted) :-
-    (   wait_for_input([In], [_], 0)
-    ->  peek_code(In, Byte),
-        check_first(Byte, Out)
-    ;   true
-    ),
-    slot(give(In, Out, Ip, Me, Evicted)).
+    catch(( check_first(In, Out),
+            slot(give(In, Out, Ip, Me, Evicted)) ),
+          Error,
+          ( close_streams(In, Out),
+            throw(Error) )).
 
-check_first(-1, _) :-
-    !,
-    syntax_error(end_of_file).
-check_first(Byte, Out) :-
-    transport_first(Byte, Out).
+check_first(In, Out) :-
+    (   wait_for_input([In], [_], 0)
+    ->  first_byte(In, Out)
+    ;   true
+    ).
+
+first_byte(In, Out) :-
+    peek_code(In, Byte),
+    (   Byte == -1
+    ->  syntax_error(end_of_file)
+    ;   transport_first(Byte, Out)
+    ).
 
 close_streams(In, Out) :-
     close(Out, [force(true)]),
@@ -559,10 +546,8 @@ address_rank(Ip, Slots, Known, Free) :-
 
 %   A new client has had no time to send anything.
 
-stage_rank(silent, Spoke) =>
-    Spoke = 0.
-stage_rank(_, Spoke) =>
-    Spoke = 1.
+stage_rank(silent, 0) :- !.
+stage_rank(_, 1).
 
 		 /*******************************
 		 *            CLIENTS           *
@@ -634,26 +619,17 @@ typhon_reports:summary(refused_clients, Groups,
 
 %   reason(+Formal, -Why): Why has no details that differ from case to case.
 
-reason(permission_error(authenticate, peer, Why0), Why) =>
-    Why = Why0.
-reason(syntax_error(end_of_file), Why) =>
-    Why = hung_up.
-reason(syntax_error(Why0), Why) =>
-    Why = Why0.
-reason(timeout_error(_, _), Why) =>
-    Why = slow.
-reason(io_error(_, _), Why) =>
-    Why = broken.
-reason(socket_error(_, _), Why) =>
-    Why = broken.
-reason(Why0, Why) =>
-    Why = Why0.
+reason(permission_error(authenticate, peer, Why), Why) :- !.
+reason(syntax_error(end_of_file), hung_up) :- !.
+reason(syntax_error(Why), Why) :- !.
+reason(timeout_error(_, _), slow) :- !.
+reason(io_error(_, _), broken) :- !.
+reason(socket_error(_, _), broken) :- !.
+reason(Why, Why).
 
-level(Why, Level) :-
-    (   memberchk(Why, [hung_up, broken])
-    ->  Level = informational
-    ;   Level = warning
-    ).
+level(hung_up, informational) :- !.
+level(broken, informational) :- !.
+level(_, warning).
 
 prolog:message(typhon(endpoint, turned_away(Ip, Why))) -->
     [ 'Endpoint: refused a client at ~w: '-[Ip] ],
