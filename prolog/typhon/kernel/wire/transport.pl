@@ -119,20 +119,20 @@ transport_disagrees(Option) :-
 %   this process.
 
 endpoint_own_proof(Proof) :-
-    (   current(_, Own, _)
-    ->  Proof = Own
-    ;   Proof = cookie
-    ).
+    transport(_, Own, _),
+    Proof = Own.
 
 %!  transport_unknown(-Proof) is det.
 %
 %   Proof is that of a peer without session.
 
 transport_unknown(Proof) :-
-    (   current(_, _, Unknown)
-    ->  Proof = Unknown
-    ;   Proof = cookie
-    ).
+    transport(_, _, Proof).
+
+transport(Transport, Own, Unknown) :-
+    current(Transport, Own, Unknown),
+    !.
+transport(plain, cookie, cookie).
 
                  /*******************************
                  *          CONNECTIONS         *
@@ -148,7 +148,7 @@ transport_unknown(Proof) :-
 
 transport_first(Byte, Out) :-
     client(Byte, Client),
-    ( current(Own, _, _) -> true ; Own = plain ),
+    transport(Own, _, _),
     (   Client == Own
     ->  true
     ;   misfit(Client, Own, Line, Why)
