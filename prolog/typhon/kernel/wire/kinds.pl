@@ -52,8 +52,8 @@ and count, number, positive: numbers.
 *Threading*: any thread; no state.
 */
 
-:- use_module(library(apply), [maplist/3]).
-:- use_module(library(lists), [append/3]).
+:- use_module(library(apply), [maplist/3, maplist/4]).
+:- use_module(library(lists), [append/2]).
 
 :- multifile
     accepts/5,                          % Form, Kind, Term, Right, Scope
@@ -77,9 +77,8 @@ arrival_verdict(Form, Kind, Term, Peer, Verdict) :-
     (   atom(Kind),
         nonvar(Term),
         accepts(Form, Kind, Term, Right, Scope)
-    ->  (   unconditional(Right)
-        ->  Verdict = ok
-        ;   peer_permitted(Right, Scope, Term, Peer)
+    ->  (   ( unconditional(Right)
+            ; peer_permitted(Right, Scope, Term, Peer) )
         ->  Verdict = ok
         ;   Verdict = refused(Right)
         )
@@ -153,15 +152,9 @@ tests(Constant, Term, [Term == Constant]) :-
     !.
 tests(Pattern, Term, [compound(Term)|Tests]) :-
     compound_name_arguments(Pattern, Name, Types),
-    tests_of(Types, Args, Tests0),
+    maplist(tests, Types, Args, Tests0),
     compound_name_arguments(General, Name, Args),
-    Tests = [Term = General|Tests0].
-
-tests_of([], [], []).
-tests_of([Type|Types], [Term|Terms], Tests) :-
-    tests(Type, Term, Tests0),
-    tests_of(Types, Terms, Tests1),
-    append(Tests0, Tests1, Tests).
+    append([[Term = General]|Tests0], Tests).
 
 %   Each declaration, arrives/6 with a pattern of types, also makes a clause
 %   of accepts/5, which tests a term.

@@ -370,7 +370,7 @@ taken_later(typhon_endpoint:Hook) :-
     functor(Hook, Seam, _),
     arg(1, Hook, Kind),
     on_demand_part(Seam, Kind),
-    endpoint_later(typhon_request:load_and_take(Hook)).
+    endpoint_later(typhon_request:load_and_take(Seam, Kind, Hook)).
 
 %!  endpoint_later(:Goal) is semidet.
 %
@@ -384,11 +384,9 @@ endpoint_later(Goal) :-
     ( transport_proof(Proof) -> true ; Proof = none ),
     on_demand_later(transport_as(Proof, Goal)).
 
-:- public load_and_take/1.              % goal of a worker
+:- public load_and_take/3.              % goal of a worker
 
-load_and_take(Hook) :-
-    functor(Hook, Seam, _),
-    arg(1, Hook, Kind),
+load_and_take(Seam, Kind, Hook) :-
     (   catch(on_demand_load(Seam, Kind), Error,
               report(error, errors_of_hooks, Kind, typhon(raised(Error)))),
         var(Error),
