@@ -1,5 +1,6 @@
 :- module(typhon_monotonic,
           [ monotonic_time/1,           % -Now
+            deadline/2,                 % +Seconds, -Deadline
             wait_before/2,              % +Deadline, :Wait
             wait_within/2,              % +Seconds, :Wait
             poll_within/2,              % +Seconds, :Goal
@@ -59,6 +60,16 @@ monotonic_time(Now) :-
 monotonic_time(Now) :-
     with_mutex(typhon_monotonic, verify(Wall, Offset)),
     Now is Wall-Offset.
+
+%!  deadline(+Seconds, -Deadline) is det.
+%
+%   Deadline is a monotonic_time/1, Seconds from now, or `inf`.
+
+deadline(inf, inf) :-
+    !.
+deadline(Seconds, Deadline) :-
+    monotonic_time(Now),
+    Deadline is Now+Seconds.
 
 verify(Wall, Offset) :-
     ( verified(Middle, Offset0) -> true ; Middle = 0, Offset0 = 0 ),
@@ -172,12 +183,6 @@ wait_within(Seconds, Wait) :-
     ->  wait_before(inf, Wait)
     ;   timed(Seconds, Deadline, Wait)
     ).
-
-deadline(inf, inf) :-
-    !.
-deadline(Seconds, Deadline) :-
-    monotonic_time(Now),
-    Deadline is Now+Seconds.
 
 %   The system may not support very late times.
 

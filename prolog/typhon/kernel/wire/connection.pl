@@ -48,7 +48,7 @@ thread of a client reports its progress and returns its own.
 :- autoload(library(socket),
             [ tcp_accept/3, tcp_close_socket/1, tcp_connect/2,
               tcp_open_socket/3, tcp_setopt/2, tcp_socket/1 ]).
-:- use_module('../base/monotonic', [monotonic_time/1]).
+:- use_module('../base/monotonic', [deadline/2, monotonic_time/1]).
 :- use_module('../base/names', [counted/3]).
 :- use_module('../base/reports', [report/4]).
 :- use_module(addresses, [endpoint_parts/3, must_be_endpoint/1]).
@@ -332,8 +332,7 @@ send_count(Session, Out) :-
 
 receive_count(In, Count) :-
     setting(typhon_handshake:handshake_time, Seconds),
-    monotonic_time(Now),
-    Deadline is Now+Seconds,
+    deadline(Seconds, Deadline),
     line_read(In, Deadline, Line),
     (   string_concat("resume ", Digits, Line),
         number_string(Count, Digits),

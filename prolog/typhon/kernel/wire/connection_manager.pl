@@ -54,7 +54,8 @@ flushes are for any thread that may wait.
 :- use_module('../base/fifo', [fifo_send/2]).
 :- use_module('../base/durable', [commit_changes/0]).
 :- use_module('../base/reports', [report/4]).
-:- use_module('../base/monotonic', [monotonic_time/1, wait_before/2]).
+:- use_module('../base/monotonic',
+              [deadline/2, monotonic_time/1, wait_before/2]).
 :- use_module(connection, [outgoing/2]).
 :- use_module(peer_cache, [peer_expected/1, peer_gone/1, peer_missed/2]).
 :- use_module(request,
@@ -694,8 +695,7 @@ unsent_again(_, _).
 
 endpoint_flush(Seconds) :-
     must_be(number, Seconds),
-    monotonic_time(Now),
-    Deadline is Now+Seconds,
+    deadline(Seconds, Deadline),
     forall(session(_, Session), session_flush(Session, Deadline)).
 
 %!  endpoint_flush(+Seconds, +Peers:list) is semidet.
@@ -703,8 +703,7 @@ endpoint_flush(Seconds) :-
 %   As endpoint_flush/1, for frames to the addresses Peers.
 
 endpoint_flush(Seconds, Peers) :-
-    monotonic_time(Now),
-    Deadline is Now+Seconds,
+    deadline(Seconds, Deadline),
     forall(( member(Peer, Peers),
              route(Peer, Session) ),
            session_flush(Session, Deadline)).
@@ -716,8 +715,7 @@ endpoint_flush(Seconds, Peers) :-
 %   clean-up handlers, see manager_connect/2.
 
 peers_flush(Seconds) :-
-    monotonic_time(Now),
-    Deadline is Now+Seconds,
+    deadline(Seconds, Deadline),
     forall(( session(_, Session),
              reachable(Session, Deadline) ),
            session_flush(Session, Deadline)).

@@ -64,7 +64,8 @@ under the mutex of the endpoint.
 :- use_module('../base/durable',
               [ commits_must_succeed/0, durable_item/5, durable_opened/1,
                 durable_put/4, sync_changes/0 ]).
-:- use_module('../base/monotonic', [monotonic_time/1, wait_within/2]).
+:- use_module('../base/monotonic',
+              [deadline/2, monotonic_time/1, wait_within/2]).
 :- use_module('../base/on_demand', [on_demand_load/2]).
 :- use_module('../base/own_thread', [in_own_thread/1, stop_steps/1]).
 :- use_module('../base/reports', [reports_end/0]).
@@ -110,7 +111,7 @@ under the mutex of the endpoint.
                                         % Acceptor: the address of the endpoint
                                         % is the first
     process/1,                          % Id
-    starts/1.                           % Count
+    starts/1.                           % Count: how often it began to listen
 
 :- multifile
     received/3,                         % Kind, Term, Peer
@@ -250,12 +251,10 @@ blame(error(socket_error(Code, Text), _), Interface, Port) :-
 blame(Error, _, _) :-
     throw(Error).
 
-how_to_listen(eaddrinuse, How) =>
-    How = '; choose another port, or port(0) for any free one'.
-how_to_listen(eacces, How) =>
-    How = ''.
-how_to_listen(_, How) =>
-    How = '; give a name or an IPv4 address of this machine'.
+how_to_listen(eaddrinuse,
+              '; choose another port, or port(0) for any free one') :- !.
+how_to_listen(eacces, '') :- !.
+how_to_listen(_, '; give a name or an IPv4 address of this machine').
 
 our_hello(Start, Address, Me) :-
     endpoint_process(Process),
@@ -282,7 +281,7 @@ listen_too(Port, Address) :-
     ->  true
     ;   existence_error(endpoint, running)
     ),
-    own_start(Start),
+    starts(Start),
     our_hello(Start, First, Me),
     listen(Interface, Port, _, Socket),
     advertised(Advertised),
@@ -414,14 +413,6 @@ noted_place(at(localhost, none), Noted, At) :-
     !,
     ( Noted = at(_, _) -> At = Noted ; At = at(Noted, none) ).
 noted_place(At, _, At).
-
-%!  own_start(-Start) is semidet.
-%
-%   The number of times that this process has started to listen.
-
-own_start(Start) :-
-    starts(Start),
-    !.
 
 %!  own_start_next(-Start) is det.
 %
@@ -654,13 +645,12 @@ await(Queue, Address, Deadline, Up0, Result) :-
     ;   Now >= Deadline
     ->  forget(Queue, Address),
         Result = late
-    ;   endpoint_peer(Address, state(down))
-    ->  setting(typhon_endpoint:lost_time, Seconds),
-        (   Now-Up0 > Seconds
-        ->  Result = lost
-        ;   await(Queue, Address, Deadline, Up0, Result)
-        )
-    ;   await(Queue, Address, Deadline, Now, Result)
+    ;   \+ endpoint_peer(Address, state(down))
+    ->  await(Queue, Address, Deadline, Now, Result)
+    ;   setting(typhon_endpoint:lost_time, Seconds),
+        Now-Up0 > Seconds
+    ->  Result = lost
+    ;   await(Queue, Address, Deadline, Up0, Result)
     ).
 
 call_result(answer(Term), _, answer(Term)).
@@ -685,8 +675,7 @@ call_result(late, Address, _) :-
 
 endpoint_ask_all(Addresses, Kind, Term, Further, Seconds, Results) :-
     must_be(number, Seconds),
-    monotonic_time(Now),
-    Deadline is Now+Seconds,
+    deadline(Seconds, Deadline),
     setup_call_cleanup(
         message_queue_create(Queue),
         ( ask(Addresses, Kind-Term, Queue),

@@ -36,7 +36,7 @@ fact; two threads that read it at once store the same.
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(sha), [hash_atom/2, hmac_sha/4]).
 :- use_module('../base/private', [private_new/2]).
-:- use_module('../base/monotonic', [monotonic_time/1]).
+:- use_module('../base/monotonic', [deadline/2]).
 :- use_module('../base/text', [shell_word/2]).
 :- use_module(frame, [check_bytes/2]).
 :- use_module(transport, [line_read/3, line_write/2]).
@@ -156,8 +156,7 @@ record_format(90000, 90299).
 authenticate(Role, In, Out, Hello, Cookie, PeerHello) :-
     must_be(oneof([client, server]), Role),
     setting(handshake_time, Seconds),
-    monotonic_time(Now),
-    Deadline is Now+Seconds,
+    deadline(Seconds, Deadline),
     thread_self(Me),
     call_cleanup(
         ( exchange_greetings(Role, In, Out, Deadline, Hello, Ours, Theirs),
