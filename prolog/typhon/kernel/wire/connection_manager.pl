@@ -62,10 +62,9 @@ flushes are for any thread that may wait.
               [ request_answer/2, request_forget/1, request_send/4,
                 request_take/3, requests_lost/2, session_unfinished/1 ]).
 :- use_module(session,
-              [ route/2, route_key/2, route_up/2, session/2,
-                session_adopting/2, session_close/2, session_key/2,
-                session_mark/2, session_peer/3, session_pending/2,
-                session_retire/1, session_up/1 ]).
+              [ route/2, route_up/2, session/2, session_adopting/2,
+                session_close/2, session_key/2, session_mark/2, session_peer/3,
+                session_pending/2, session_retire/1, session_up/1 ]).
 :- use_module(threads,
               [ in_background/2, in_manager/0, manager_notify/1,
                 manager_start/2, manager_stop/0, wire_thread_create/3,
@@ -141,7 +140,7 @@ handle(ended(Thread), _) :-
     attempt_ended(Thread, ended).
 handle(up(Key), _) :-
     retractall(resting(Key)),
-    findall(Address, route_key(Address, Key), Addresses),
+    findall(Address, leads_to(Address, Key), Addresses),
     forall(member(Address, Addresses), address_met(Address)).
 handle(wanted(Key), _) :-
     (   session(Key, Session),
@@ -150,12 +149,12 @@ handle(wanted(Key), _) :-
     ;   true
     ).
 handle(displaced(Key), Me) :-           % another process has an address of Key
-    (   route_key(_, Key)               % Key may have other addresses
+    (   leads_to(_, Key)                % Key may have other addresses
     ->  handle(wanted(Key), Me)
     ;   gone(Key)
     ).
 handle(gone(Key), _) :-                 % the peer has sent `bye`
-    forall(route_key(Address, Key), peer_gone(Address)),
+    forall(leads_to(Address, Key), peer_gone(Address)),
     gone(Key).
 handle(later(Time, Goal), _) :-         % Goal is quick
     assertz(errand(Time, Goal)).
@@ -163,6 +162,10 @@ handle(timeout, Me) :-
     monotonic_time(Now),
     run_errands(Now),
     attempts_due(Me).
+
+leads_to(Address, Key) :-
+    session(Key, Session),
+    route(Address, Session).
 
 %   Run the goals of later/2 messages that are due.
 

@@ -9,7 +9,6 @@
             session_proof/2,            % +Session, -Proof
             session_adopting/2,         % +Session, :Goal
             route/2,                    % ?Address, ?Session
-            route_key/2,                % ?Address, ?Key
             route_add/2,                % +Address, +Session
             connection_is/2,            % +Session, +State
             frame_fits/1,               % +Length
@@ -137,13 +136,6 @@ has no pusher, only held posts wait.
 %!  route(?Address, ?Session) is nondet.
 %
 %   Address leads to Session.
-
-%!  route_key(?Address, ?Key) is nondet.
-%
-%   Address leads to the session of Key.
-
-route_key(Address, Key) :-
-    route(Address, session(Key, _, _, _, _, _)).
 
 %!  session_key(+Session, -Key) is det.
 %
@@ -735,15 +727,15 @@ put_frame(Session, Bytes, Token, When) :-
 
 most_held(256).
 
+holds(_, Key) :-
+    pusher(Key, _),
+    !.
 holds(Session, Key) :-
-    (   pusher(Key, _)
-    ->  true
-    ;   session_up(Key),
-        session_window(Session, Window),
-        window_owed(Window, Waiting),
-        most_held(Most),
-        Waiting < Most
-    ).
+    session_up(Key),
+    session_window(Session, Window),
+    window_owed(Window, Waiting),
+    most_held(Most),
+    Waiting < Most.
 
 %!  session_up(+Key) is semidet.
 %
@@ -793,11 +785,9 @@ written(When, Key, Thread, Out, Counts, Bytes) :-
           error(_, _),
           transport_broken(Key, Thread)).
 
-write_out(now, Out, Counts, Bytes) :-
+write_out(When, Out, Counts, Bytes) :-
     frame_write(Out, Counts, Bytes),
-    flush_output(Out).
-write_out(later, Out, Counts, Bytes) :-
-    frame_write(Out, Counts, Bytes).
+    ( When == now -> flush_output(Out) ; true ).
 
 %   put_control(+Session, +Kind, +Bytes): write Bytes outside the count, before
 %   all frames that wait. They are dropped if the session is down, or if newer
@@ -837,7 +827,7 @@ write_or_connect(Session, Key) :-
     ->  catch(write_waiting(Session, Out, room),
               error(_, _),
               transport_broken(Key, Thread)),
-        ignore(( waiting(Session), push_what_waits(Session, Key) ))
+        ( waiting(Session) -> push_what_waits(Session, Key) ; true )
     ;   ignore(manager_notify(wanted(Key)))
     ).
 
