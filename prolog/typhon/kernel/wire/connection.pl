@@ -203,10 +203,13 @@ with_streams(Open, In, Out, Goal) :-
         Goal,
         ( session_left,
           transport_close,
-          close_stream(Out),
-          close_stream(In) )).
+          close_streams(In, Out) )).
 
 %   The streams of a thread that was lent may be closed already.
+
+close_streams(In, Out) :-
+    close_stream(Out),
+    close_stream(In).
 
 close_stream(Stream) :-
     catch(close(Stream, [force(true)]),
@@ -462,10 +465,6 @@ first_byte(In, Out) :-
     ->  syntax_error(end_of_file)
     ;   transport_first(Byte, Out)
     ).
-
-close_streams(In, Out) :-
-    close(Out, [force(true)]),
-    close(In, [force(true)]).
 
 slot(Goal) :-
     with_mutex(typhon_connection, Goal).

@@ -90,9 +90,8 @@ peer_expect_no_more(Address) :-
     with_mutex(typhon_peer_cache, retractall(peer_expected(Address))).
 
 last_met(Address, Process) :-
-    last_process(Address, Process0, _),
-    !,
-    Process = Process0.
+    last_process(Address, Process, _),
+    !.
 last_met(_, none).
 
 note(Address, Process, State) :-
@@ -192,9 +191,8 @@ endpoint_lasting(Address) :-
 %   permission_error(authenticate, peer, Why) or socket_error(Code, Text).
 
 endpoint_missed(Address, Formal) :-
-    missed(Address, Formal0),
-    !,
-    Formal = Formal0.
+    missed(Address, Formal),
+    !.
 
 		 /*******************************
 		 *            PROOFS            *

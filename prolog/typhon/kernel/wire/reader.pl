@@ -41,7 +41,7 @@ thread that takes it first.
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../base/monotonic', [monotonic_time/1]).
+:- use_module('../base/monotonic', [deadline/2, monotonic_time/1]).
 :- use_module('../base/reports', [report/4]).
 :- use_module(frame,
               [bundle_parts/2, bytes_mark/2, bytes_term/3, frame_read/4]).
@@ -497,19 +497,15 @@ typhon_threads:not_now(Why) :-
 %   While threads are lent the manager looks for those that are overdue.
 
 check_if_needed :-
-    (   get_flag(typhon_lending, 1)
-    ->  true
-    ;   flag(typhon_lending, Looks, 1),
-        (   Looks =:= 0
-        ->  check_later
-        ;   true
-        )
-    ).
+    get_flag(typhon_lending, 1),
+    !.
+check_if_needed :-
+    flag(typhon_lending, Looks, 1),
+    ( Looks =:= 0 -> check_later ; true ).
 
 check_later :-
-    monotonic_time(Now),
     check_seconds(Seconds),
-    Time is Now+Seconds,
+    deadline(Seconds, Time),
     ignore(manager_notify(later(Time, typhon_reader:check_lent))).
 
 check_lent :-

@@ -177,11 +177,8 @@ wire_thread_join(Thread) :-
     ;   true
     ).
 
-report(true) :-
-    !.
-report(exception(wire_thread_end(_))) :-
-    !.
 report(exception(Error)) :-
+    Error \= wire_thread_end(_),
     !,
     print_message(error, typhon(endpoint, thread_died(Error))).
 report(_).
