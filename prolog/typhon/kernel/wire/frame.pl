@@ -1,6 +1,7 @@
 :- module(typhon_frame,
           [ frame_write/3,              % +Out, +Counts, +Bytes
-            frame_read/4,               % +In, +MaxBytes, -Counts, -Bytes
+            frame_read/5,               % +In, +MaxBytes, :Meanwhile, -Counts,
+                                        % -Bytes
             frame_overhead/1,           % ?Bytes
             count_ahead/3,              % +Counted, +Count, -Ahead
             term_bytes/3,               % +Codec, +Term, -Bytes
@@ -93,22 +94,26 @@ count_ahead(Counted, Count, Ahead) :-
     Ahead is (Count-Counted) /\ 0xffffffff,
     Ahead < 0x80000000.
 
-%!  frame_read(+In, +MaxBytes, -Counts, -Bytes) is det.
+%!  frame_read(+In, +MaxBytes, :Meanwhile, -Counts, -Bytes) is det.
 %
 %   Read one frame. Bytes is `end_of_file` when In ends where a frame
-%   would begin.
+%   would begin. Meanwhile is called after each 64 kB of a longer frame.
 %
 %   @error syntax_error(truncated_frame) if In ends inside the frame
 %   @error syntax_error(damaged_frame) if the check does not match the bytes;
 %   the context is check(Read, Found), and In is at the next frame
 %   @error resource_error(frame_bytes) if the frame is longer than MaxBytes
 
-frame_read(In, MaxBytes, Counts, Bytes) :-
+:- meta_predicate
+    frame_read(+, +, 0, -, -),
+    body_parts(+, +, 0, -).
+
+frame_read(In, MaxBytes, Meanwhile, Counts, Bytes) :-
     read_string(In, 15, Head),
     (   string_codes(Head, [ L3,L2,L1,L0, C2,C1,C0, R3,R2,R1,R0,
                              S3,S2,S1,S0 ])
     ->  Length is L3<<24 \/ L2<<16 \/ L1<<8 \/ L0,
-        frame_body(In, Length, MaxBytes, Bytes),
+        frame_body(Length, In, MaxBytes, Meanwhile, Bytes),
         R is R3<<24 \/ R2<<16 \/ R1<<8 \/ R0,
         S is S3<<24 \/ S2<<16 \/ S1<<8 \/ S0,
         Counts = counts(R, S),
@@ -123,13 +128,30 @@ frame_read(In, MaxBytes, Counts, Bytes) :-
     ;   syntax_error(truncated_frame)
     ).
 
-frame_body(_, Length, MaxBytes, _) :-
+frame_body(Length, _, MaxBytes, _, _) :-
     Length > MaxBytes,
     !,
     resource_error(frame_bytes).
-frame_body(In, Length, _, Bytes) :-
-    read_string(In, Length, Bytes),
-    (   string_length(Bytes, Length)
+frame_body(Length, In, _, _, Bytes) :-
+    Length =< 65536,
+    !,
+    body_part(In, Length, Bytes).
+frame_body(Length, In, _, Meanwhile, Bytes) :-
+    body_parts(Length, In, Meanwhile, Parts),
+    atomics_to_string(Parts, Bytes).
+
+body_parts(0, _, _, []) :-
+    !.
+body_parts(Length, In, Meanwhile, [Part|Parts]) :-
+    Size is min(Length, 65536),
+    body_part(In, Size, Part),
+    call(Meanwhile),
+    Left is Length-Size,
+    body_parts(Left, In, Meanwhile, Parts).
+
+body_part(In, Length, Part) :-
+    read_string(In, Length, Part),
+    (   string_length(Part, Length)
     ->  true
     ;   syntax_error(truncated_frame)
     ).

@@ -44,7 +44,7 @@ thread that takes it first.
 :- use_module('../base/monotonic', [deadline/2, monotonic_time/1]).
 :- use_module('../base/reports', [report/4]).
 :- use_module(frame,
-              [bundle_parts/2, bytes_mark/2, bytes_term/3, frame_read/4]).
+              [bundle_parts/2, bytes_mark/2, bytes_term/3, frame_read/5]).
 :- use_module(request,
               [ dispatch/2, dispatch_all/2, handed_over/2,
                 session_unfinished/1 ]).
@@ -66,6 +66,7 @@ thread that takes it first.
            "Seconds of silence before a peer is pinged").
 
 :- meta_predicate
+    next(+, +, 0, -, -),
     endpoint_afterwards(1),
     lend(+, 0, 0).
 
@@ -134,7 +135,7 @@ read_all(Session, In, Max, State) :-
     ->  true                            % and flush_answers/1 was called
     ;   push_late(Session, In)
     ),
-    (   next(In, Max, Counts, Bytes)
+    (   next(In, Max, session_acknowledge(Session), Counts, Bytes)
     ->  (   Bytes == end_of_file
         ->  !
         ;   frame_term(Codec, Bytes, Term),
@@ -217,11 +218,12 @@ times_damaged(Key, Count, Which, Times) :-
     ).
 
 %   Fails if no frame begins within the time-out.  A time-out of peek_code/2
-%   loses no byte.
+%   loses no byte.  A long frame may arrive for longer than the peer waits for a
+%   sign of life: it gets one after each part.
 
-next(In, Max, Counts, Bytes) :-
+next(In, Max, Meanwhile, Counts, Bytes) :-
     catch(peek_code(In, _), error(timeout_error(_, _), _), fail),
-    frame_read(In, Max, Counts, Bytes).
+    frame_read(In, Max, Meanwhile, Counts, Bytes).
 
 %   Three silences in a row are too many while an answer is due.
 

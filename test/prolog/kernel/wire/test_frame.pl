@@ -295,7 +295,7 @@ write_frames(List, Counts, Out) :-
     forall(member(Bytes, List), frame_write(Out, Counts, Bytes)).
 
 read_frame(Max, Counts, Frame, In) :-
-    frame_read(In, Max, Counts, Frame).
+    frame_read(In, Max, true, Counts, Frame).
 
 read_all(Bytes, In) :-
     read_string(In, _, Bytes).
@@ -314,13 +314,13 @@ with_bytes(Bytes, Goal) :-
 
 read_each([], _, _).
 read_each([Frame|Frames], Max, In) :-
-    frame_read(In, Max, Counts, Frame),
+    frame_read(In, Max, true, Counts, Frame),
     assertion(Frame == end_of_file ; Counts == counts(7, 5)),
     read_each(Frames, Max, In).
 
 second_frame(Frame, In) :-
-    catch(frame_read(In, 100, _, _), error(syntax_error(_), _), true),
-    frame_read(In, 100, _, Frame).
+    catch(frame_read(In, 100, true, _, _), error(syntax_error(_), _), true),
+    frame_read(In, 100, true, _, Frame).
 
 %   with_file(:Write, :Read): both are called with a stream of the same bytes.
 

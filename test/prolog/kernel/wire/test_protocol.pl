@@ -272,6 +272,16 @@ test(count_beyond_what_was_sent_ends_the_connection) :-
                    ( is_answered(Streams, 1),
                      put_frame_to(Streams, 1 000, 0, ""),
                      heard_end(Streams) ))).
+test(counts_are_sent_while_a_long_frame_arrives, Count == 0) :-
+    served(talking(zz, 0, Streams, _,
+                   ( heard(Streams, frame(0, _, "")),
+                     Streams = _-Out,
+                     put(4, 67 108 864, Out),
+                     put(4, 0, Out), put(4, 0, Out), put(3, 0, Out),
+                     format(string(Part), "~`xt~65536|", []),
+                     write(Out, Part),
+                     flush_output(Out),
+                     heard(Streams, frame(Count, _, "")) ))).
 test(lower_count_is_ignored) :-
     served(talking(zz, 0, Streams, _,
                    ( is_answered(Streams, 1),
