@@ -138,20 +138,37 @@ settings(Work, Docs) :-
                         [tab(1000000)]),
         close(Out)).
 
-%   Headings of doc/contents.md, with the pages below them.
+%   Sections of doc/contents.md, with their pages, or parts that have pages.
 
 group(_{'Start':['README.md', 'doc/contents.md']}).
 group(Group) :-
     read_file_to_string('doc/contents.md', Text, [encoding(utf8)]),
-    atomic_list_concat([_|Sections], '\n## ', Text),
+    headed(Text, '\n## ', Heading, Section),
+    findall(Part-Pages,
+            ( headed(Section, '\n### ', Part, Listed),
+              pages(Listed, Pages) ),
+            Parts),
+    (   Parts == []
+    ->  pages(Section, Items)
+    ;   findall(Item, ( member(Pair, Parts), dict_pairs(Item, _, [Pair]) ),
+                Items)
+    ),
+    dict_pairs(Group, _, [Heading-Items]).
+group(_{'Predicates':['predicates.md']}).
+
+%   headed(+Text, +Mark, -Heading, -Below) is nondet.
+
+headed(Text, Mark, Heading, Below) :-
+    atomic_list_concat([_|Sections], Mark, Text),
     member(Section, Sections),
     atomic_list_concat([Heading|_], '\n', Section),
+    atom_concat(Heading, Below, Section).
+
+pages(Text, Pages) :-
     findall(Page,
-            ( link_target(Section, Target),
+            ( link_target(Text, Target),
               beside('doc/contents.md', Target, Page) ),
-            Pages),
-    dict_pairs(Group, _, [Heading-Pages]).
-group(_{'Predicates':['predicates.md']}).
+            Pages).
 
 mkdocs(Work, Dir, Status) :-
     directory_file_path(Work, 'mkdocs.yml', Settings),

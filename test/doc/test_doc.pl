@@ -14,8 +14,9 @@
 %     agents, numbers of variables and long floats are not compared, nor are
 %     the bindings of `$Var`. A line `...` stands for any lines.
 %
-%   Links between documents, and to files of the tree, resolve. And every
-%   export of the library has a PlDoc comment with modes.
+%   Links between documents, and to files of the tree, resolve. Each document
+%   is in one section of doc/contents.md. And every export of the library has a
+%   PlDoc comment with modes.
 
 :- use_module('../lib/common').
 :- use_module('../lib/texts', [write_file/2, file_lines/2]).
@@ -195,6 +196,46 @@ slug_char(Char, Char) :-
     once(( char_type(Char, csym) ; Char == (-) )).
 
                 /*******************************
+                *           SECTIONS           *
+                *******************************/
+
+%   section(?Title, -Files): the documents that doc/contents.md lists below a
+%   heading `## Title`.
+
+section(Title, Files) :-
+    project_file('doc/contents.md', Contents),
+    read_file_to_string(Contents, Text, [encoding(utf8)]),
+    atomic_list_concat([_|Sections], '\n## ', Text),
+    member(Section, Sections),
+    atomic_list_concat([Title|_], '\n', Section),
+    file_directory_name(Contents, Dir),
+    findall(File,
+            ( points_to(Section, Link),
+              directory_file_path(Dir, Link, Path),
+              absolute_file_name(Path, File) ),
+            Files).
+
+%   sections_of(-File, -Titles): of each document but README.md and the list.
+
+sections_of(File, Titles) :-
+    member(Pattern, ['doc/*.md', 'doc/course/*.md']),
+    project_file(Pattern, Absolute),
+    expand_file_name(Absolute, Files),
+    member(File, Files),
+    \+ project_file('doc/contents.md', File),
+    findall(Title, ( section(Title, Listed), member(File, Listed) ), Titles).
+
+words(Files, Count) :-
+    findall(Word,
+            ( member(File, Files),
+              read_file_to_string(File, Text, [encoding(utf8)]),
+              split_string(Text, " \n\t", " \n\t", Words),
+              member(Word, Words),
+              Word \== "" ),
+            All),
+    length(All, Count).
+
+                /*******************************
                 *            PLDOC             *
                 *******************************/
 
@@ -372,6 +413,14 @@ test(links_resolve, Broken == []) :-
             ( document(File), broken_link(File, Link),
               file_base_name(File, Base) ),
             Broken).
+
+test(sections_are_four,
+     Titles == ['Platform', 'Mechanisms', 'Course', 'Development']) :-
+    findall(Title, section(Title, _), Titles).
+test(each_document_is_in_one_section, Others == []) :-
+    findall(File-Titles,
+            ( sections_of(File, Titles), Titles \= [_] ),
+            Others).
 
 test(broken_links_are_found,
      Links == ['none.md', 'doc.md#none', '#none']) :-
