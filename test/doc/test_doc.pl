@@ -422,6 +422,10 @@ test(each_document_is_in_one_section, Others == []) :-
             ( sections_of(File, Titles), Titles \= [_] ),
             Others).
 
+test(platform_has_at_most_40_000_words, true(Count =< 40 000)) :-
+    section('Platform', Files),
+    words(Files, Count).
+
 test(broken_links_are_found,
      Links == ['none.md', 'doc.md#none', '#none']) :-
     with_tmp_dir(broken_links_in(
