@@ -3,15 +3,13 @@
 // what it is called here.
 
 const synonyms = {
-    actor: "agent", behavior: "behaviour", broadcast: "watch",
-    checkpoint: "restore", color: "colour", container: "host",
-    cookie: "token", daemon: "host", deploy: "deliver", encryption: "tls",
-    exception: "error", failover: "restart", inbox: "mailbox",
-    kill: "dispose", latency: "hop_time", migrate: "move",
-    migration: "move", monitor: "watch", neighbor: "neighbour",
-    neighbors: "neighbours", node: "host", persistence: "journal",
-    sandbox: "guarded", simulation: "virtual", spawn: "create",
-    supervisor: "restart", supervision: "restart", topology: "shape",
+    actor: "agent", behavior: "behaviour", breakpoint: "spy",
+    checkpoint: "restore", color: "colour", daemon: "service",
+    deploy: "deliver", encryption: "tls", exception: "error",
+    failover: "supervisor", inbox: "mailbox", kill: "dispose",
+    latency: "cost", migrate: "move", migration: "move",
+    neighbor: "neighbour", neighbors: "neighbours", node: "host",
+    persistence: "journal", simulation: "virtual", spawn: "create",
 };
 
 const QUERY = 2;                        // a type of the theme's messages

@@ -363,7 +363,7 @@ differences(File, Terminal, Differences) :-
     blocks(File, Blocks),
     with_tmp_dir(run_blocks(Blocks, Terminal, Differences)).
 
-%   What users search for is the subject of a section, see test_site, too.
+%   What users search for is the subject of a section, see test_search, too.
 
 asked_for(Word) :-
     member(Word, [ license, backup, upgrade, uninstall, windows, macos,

@@ -1,16 +1,16 @@
 :- module(test_site, []).
 
 %   `make doc`: readers of the site find all documents, in order, and every
-%   predicate; no link is broken; words are found.
+%   predicate; no link is broken; words are found (test_search looks which pages).
 
 :- use_module('../lib/browser').
 :- use_module('../lib/common').
+:- use_module('../lib/site').
 :- use_module('../../doc/site/documents', [document/2]).
 :- use_module(library(apply), [maplist/3]).
-:- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex),
-              [ delete_directory_and_contents/1, directory_file_path/3,
-                directory_member/3, relative_file_name/3 ]).
+              [ directory_file_path/3, directory_member/3,
+                relative_file_name/3 ]).
 :- use_module(library(lists), [append/3, last/2, member/2, nth0/3, nth1/3]).
 :- use_module(library(plunit)).
 :- use_module(library(sgml), [load_html/3]).
@@ -25,21 +25,6 @@
                 /*******************************
                 *             SITE             *
                 *******************************/
-
-%   One for all tests, made as the user makes it.
-
-:- dynamic made/1.
-
-site(Dir) :-
-    made(Dir),
-    !.
-site(Dir) :-
-    tmp_file(typhon_site, Dir),
-    project_file('doc/site.pl', Program),
-    run_swipl([Program, --, Dir], [cwd('/'), timeout(300)], Status, Out, Err),
-    assertion(made(Status, Out, Err) == made(exit(0), "", "")),
-    assertz(made(Dir)),
-    at_halt(delete_directory_and_contents(Dir)).
 
 page(Name, Dom) :-
     site(Dir),
@@ -170,22 +155,9 @@ found(Found) :-
 looked_for("agent_join").
 looked_for("zebra").
 looked_for(Word) :- of_prolog(Word).
-looked_for(Word) :- asked_for(Word).
 
 of_prolog("supervisor").
 of_prolog("neighbor").
-
-%   What users look for.
-
-asked_for("license").
-asked_for("backup").
-asked_for("upgrade").
-asked_for("uninstall").
-asked_for("windows").
-asked_for("macos").
-asked_for("broadcast").
-asked_for("contribute").
-asked_for("bug").
 
 searched(Browser, Words, Text, Places) :-
     site(Dir),
@@ -286,9 +258,6 @@ test(finds_a_predicate) :-
     N =< 2.                             % below its page
 
 test(finds_predicates_of_prolog, [forall(of_prolog(Word))]) :-
-    search(Word, _, [_|_]).
-
-test(finds_what_users_look_for, [forall(asked_for(Word))]) :-
     search(Word, _, [_|_]).
 
 test(reports_no_matches) :-
