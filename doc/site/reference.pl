@@ -27,6 +27,8 @@ so this module is loaded before any other that loads library(typhon).
 :- use_module('../../prolog/typhon/network/networks', []).  % else on demand
 :- use_module('../../prolog/typhon/nxt', []).
 :- use_module('../../prolog/typhon/fipa', []).
+:- use_module('../../prolog/typhon/bridges/mqtt/service', []).
+:- use_module('../../prolog/typhon/bridges/ros/service', []).
 :- doc_collect(false).
 
                 /*******************************
@@ -36,6 +38,7 @@ so this module is loaded before any other that loads library(typhon).
 %   part(?Id, ?Title).
 
 part(agents, "Inside an agent").
+part(bridges, "Inside an agent, on hosts with a bridge").
 part(library, "At the top level and in programs: library(typhon)").
 part(fipa, "Platforms of FIPA: library(typhon/fipa)").
 part(robots, "Robots: library(typhon/nxt)").
@@ -62,6 +65,9 @@ task(agents, "Carry and deliver payloads",
 task(agents, "Offer and find services", [typhon_directory_words]).
 task(agents, "Call agents by pheromones",
      [typhon_migration:[emit/1, emit/2, withdraw/1, pheromone/3]]).
+task(bridges, "Publish and subscribe by MQTT", [typhon_mqtt_service]).
+task(bridges, "Topics of ROS", [typhon_ros_service]).
+task(bridges, "Services, actions and parameters of ROS", [typhon_ros_requests]).
 task(library, "Start, change and stop hosts",
      [typhon_hosting, typhon_administration:[host_change/2]]).
 task(library, "Link hosts, and ask them",
@@ -95,6 +101,10 @@ task(robots, "Motors and sensors by the names of SWI-PRO-NXT",
 public(agents, Module:PI) :-
     vocabulary_word(Module, PI),
     PI \== message_failed/2.            % is for the machine
+public(bridges, typhon_mqtt_service:PI) :-
+    member(PI, [publish/2, publish/3, subscribe/1, subscribe/2, unsubscribe/1]).
+public(bridges, PI) :-
+    exported(typhon_ros_service, PI).
 public(library, PI) :-
     exported(typhon, PI).
 public(fipa, Module:PI) :-

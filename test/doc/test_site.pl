@@ -17,6 +17,7 @@
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/program), [vocabulary_word/2]).
 :- use_module(library(typhon/nxt), []).
+:- use_module(library(typhon/bridges/ros/service), []).
 :- use_module(library(uri), [uri_components/2, uri_encoded/3]).
 :- use_module(library(xpath)).
 
@@ -112,7 +113,7 @@ in_file(Fragment, File, Contents) :-
                 *******************************/
 
 public(PI) :-
-    member(Module, [typhon, typhon_nxt]),
+    member(Module, [typhon, typhon_nxt, typhon_ros_service]),
     module_property(Module, exports(PIs)),
     member(PI, PIs).
 public(PI) :-
