@@ -23,11 +23,12 @@
 :- use_module('../lib/transcript', [transcript_differences/4]).
 :- use_module('../../doc/pictures/studies', [study_picture/3]).
 :- use_module('../lib/documents', [document/1]).
-:- use_module(library(apply), [maplist/2]).
+:- use_module(library(apply), [exclude/3, maplist/2]).
 :- use_module(library(filesex),
               [ directory_file_path/3, directory_member/3,
                 make_directory_path/1 ]).
 :- use_module(library(lists), [append/3, member/2, nth0/3]).
+:- use_module(library(pairs), [group_pairs_by_key/2]).
 :- use_module(library(plunit)).
 :- use_module(library(readutil), [read_file_to_string/3, read_file_to_terms/3]).
 :- use_module(library(typhon)).
@@ -229,11 +230,39 @@ words(Files, Count) :-
     findall(Word,
             ( member(File, Files),
               read_file_to_string(File, Text, [encoding(utf8)]),
-              split_string(Text, " \n\t", " \n\t", Words),
-              member(Word, Words),
-              Word \== "" ),
+              words_of(Text, Words),
+              member(Word, Words) ),
             All),
     length(All, Count).
+
+words_of(Text, Words) :-
+    split_string(Text, " \n\t", " \n\t", Words0),
+    exclude(==(""), Words0, Words).
+
+%   said_twice(+Files, -Said): Said are Row-Files: twelve words in a row,
+%   outside code, that several of Files have. The lines of tables are no words.
+
+said_twice(Files, Said) :-
+    findall(Row-File,
+            ( member(File, Files),
+              prose(File, Prose),
+              words_of(Prose, Words0),
+              exclude(mark, Words0, Words),
+              row_of_words(Words, Row) ),
+            Pairs0),
+    sort(Pairs0, Pairs),
+    group_pairs_by_key(Pairs, Groups),
+    findall(Row-Of, ( member(Row-Of, Groups), Of = [_,_|_] ), Said).
+
+mark(Word) :-
+    \+ ( string_codes(Word, Codes), member(Code, Codes),
+         code_type(Code, alnum) ).
+
+row_of_words(Words, Row) :-
+    length(List, 12),
+    append(_, Rest, Words),
+    append(List, _, Rest),
+    atomic_list_concat(List, ' ', Row).
 
                 /*******************************
                 *            PLDOC             *
@@ -425,6 +454,18 @@ test(each_document_is_in_one_section, Others == []) :-
 test(platform_has_at_most_40_000_words, true(Count =< 40 000)) :-
     section('Platform', Files),
     words(Files, Count).
+
+test(twelve_words_are_in_one_document, Said == []) :-
+    findall(File, sections_of(File, _), Files),
+    said_twice(Files, Said).
+test(words_of_two_documents_are_found,
+     Said == ['a b c d e f g h i j k l'-[First,Second]]) :-
+    with_tmp_dir(Dir,
+        ( directory_file_path(Dir, 'a.md', First),
+          directory_file_path(Dir, 'b.md', Second),
+          write_file(First, "Then a b c d e\nf g h i j k l n"),
+          write_file(Second, "a b c d e f g h i j k l m"),
+          said_twice([First, Second], Said) )).
 
 test(broken_links_are_found,
      Links == ['none.md', 'doc.md#none', '#none']) :-
