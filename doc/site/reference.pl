@@ -29,6 +29,12 @@ so this module is loaded before any other that loads library(typhon).
 :- use_module('../../prolog/typhon/fipa', []).
 :- use_module('../../prolog/typhon/bridges/mqtt/service', []).
 :- use_module('../../prolog/typhon/bridges/ros/service', []).
+:- use_module('../../agents/sync/operator', []).
+:- use_module('../../agents/population/operator', []).
+:- use_module('../../agents/learning/operator', []).
+:- use_module('../../agents/allocation/operator', []).
+:- use_module('../../agents/sieve/operator', []).
+:- use_module('../../agents/hierarchy/operator', []).
 :- doc_collect(false).
 
                 /*******************************
@@ -40,6 +46,7 @@ so this module is loaded before any other that loads library(typhon).
 part(agents, "Inside an agent").
 part(bridges, "Inside an agent, on hosts with a bridge").
 part(library, "At the top level and in programs: library(typhon)").
+part(mechanisms, "Mechanisms: modules below agents").
 part(fipa, "Platforms of FIPA: library(typhon/fipa)").
 part(robots, "Robots: library(typhon/nxt)").
 
@@ -87,6 +94,14 @@ task(library, "Watch a network", [typhon_watches, typhon_page]).
 task(library, "Save and restore agents",
      [typhon_administration:[agent_save/2, agent_load/2, agent_load/3]]).
 task(library, "Use Python, MQTT, ROS and FIPA", [typhon_starting]).
+task(mechanisms, "Synchronise hosts: agents/sync/operator", [sync_operator]).
+task(mechanisms, "Control a population: agents/population/operator",
+     [population_operator]).
+task(mechanisms, "Learn: agents/learning/operator", [learning_operator]).
+task(mechanisms, "Allocate robots: agents/allocation/operator",
+     [allocation_operator]).
+task(mechanisms, "Sieve: agents/sieve/operator", [sieve_operator]).
+task(mechanisms, "Lead: agents/hierarchy/operator", [hierarchy_operator]).
 task(fipa, "Ask a platform", [typhon_fipa_service]).
 task(robots, "Connect a brick, and use its parts", [typhon_nxt_brick]).
 task(robots, "Run motors", [typhon_nxt_motors]).
@@ -107,6 +122,9 @@ public(bridges, PI) :-
     exported(typhon_ros_service, PI).
 public(library, PI) :-
     exported(typhon, PI).
+public(mechanisms, Module:PI) :-
+    task(mechanisms, _, [Module]),
+    exported(Module, Module:PI).
 public(fipa, Module:PI) :-
     exported(typhon_fipa, Module:PI),
     \+ exported(typhon, Module:PI).

@@ -219,6 +219,10 @@ test(reference_has_no_internals, Found == []) :-
               memberchk(_-Id, Headings) ),
             Found).
 
+test(reference_has_predicates_of_mechanisms) :-
+    headings(Headings),
+    memberchk(h4-'sequence_start/5', Headings).
+
 test(reference_is_grouped_by_task) :-
     headings(Headings),
     once(append(_, [h3-'create-agents'|After], Headings)),
