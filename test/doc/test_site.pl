@@ -43,6 +43,16 @@ navigation(Links) :-
     findall(Link, ( xpath(Nav, //a(@href), Link),
                     \+ sub_atom(Link, 0, _, _, #) ), Links).
 
+%   The headings of the navigation, in order.
+
+menu(Titles) :-
+    page('contents.html', Dom),
+    xpath_chk(Dom, //nav(contains(@class, 'md-nav--primary')), Nav),
+    findall(Title,
+            xpath(Nav, ul/li/label/span(contains(@class, 'md-ellipsis'),
+                                        normalize_space), Title),
+            Titles).
+
 document_page(Page) :-
     project_file('.', Root),
     document(Root, Path),
@@ -196,6 +206,11 @@ test(navigation_has_every_document, Missing == []) :-
     navigation(Links),
     findall(Page, ( document_page(Page), \+ memberchk(Page, Links) ),
             Missing).
+
+test(menu_has_the_sections,
+     Titles == [ 'Start', 'Platform', 'Mechanisms', 'Course', 'Development',
+                 'Predicates' ]) :-
+    menu(Titles).
 
 test(navigation_is_in_reading_order) :-
     navigation(Links),
