@@ -3,7 +3,7 @@
 :- use_module('../lib/site').
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(debug), [assertion/1]).
-:- use_module(library(lists), [nth1/3]).
+:- use_module(library(lists), [memberchk/2]).
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 
@@ -29,7 +29,7 @@ expected(contribute, contributing).
 expected(bug, contributing).
 expected(docker, install).
 expected(systemd, install).
-expected(upgrade, install).
+expected(upgrade, upgrading).
 expected(uninstall, install).
 expected(windows, install).
 expected(macos, install).
@@ -55,13 +55,12 @@ expected(breakpoint, looking).
 expected(replay, 'page-map').
 expected(latency, performance).
 
-%   found_first(?Word, -Page): the name of the first page that is found, in
+%   found_first(+Word, -Page): the name of the first page that is found, in
 %   small letters; `none` if there is none.
 
 found_first(Word, Page) :-
-    all_found(Words, Lists),
-    nth1(N, Words, Word),
-    nth1(N, Lists, Pages),
+    all_found(Found),
+    memberchk(Word-Pages, Found),
     (   Pages = [First|_]
     ->  page_name(First, Page)
     ;   Page = none
@@ -72,11 +71,11 @@ page_name(Place, Page) :-
     file_name_extension(Name, html, Base),
     downcase_atom(Name, Page).
 
-%   all_found(-Words, -Lists): the pages found for each word, the best first.
+%   all_found(-Found): Word-Pages, the pages that are found, the best first.
 
-:- table all_found/2.
+:- table all_found/1.
 
-all_found(Words, Lists) :-
+all_found(Found) :-
     findall(Word, expected(Word, _), Words),
     site(Site),
     project_file('test/lib/site_search.js', Script),
@@ -84,11 +83,11 @@ all_found(Words, Lists) :-
         process_create(path(node), [Script, Site],
                        [stdin(pipe(In)), stdout(pipe(Out)), process(Pid)]),
         ( call_cleanup(maplist(writeln(In), Words), close(In)),
-          maplist(pages_found(Out), Words, Lists) ),
+          maplist(pages_found(Out), Words, Found) ),
         ( close(Out), process_wait(Pid, Status) )),
     assertion(Status == exit(0)).
 
-pages_found(Out, _, Pages) :-
+pages_found(Out, Word, Word-Pages) :-
     json_read_dict(Out, Pages).
 
 :- begin_tests(search).
