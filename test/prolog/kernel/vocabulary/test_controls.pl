@@ -46,18 +46,24 @@ is_word(Head) :-
     ;   control_of_system(Head)
     ).
 
-%   documented(+Head): the table of predicates in doc/agents.md has a call of
-%   the arity.
+%   documented(+Head): doc/agents.md names the predicate, or has a call of it.
 
 documented(Head) :-
     project_file('doc/agents.md', File),
     read_file_to_string(File, Text, [encoding(utf8)]),
     functor(Head, Name, Arity),
     between_pieces(Text, Piece),
-    catch(term_string(Call, Piece), error(_, _), fail),
-    callable(Call),
-    functor(Call, Name, Arity),
+    catch(term_string(Term, Piece), error(_, _), fail),
+    names(Term, Name/Arity),
     !.
+
+names(Name/Arity, PI) =>
+    PI = Name/Arity.
+names(Call, PI), callable(Call) =>
+    functor(Call, Name, Arity),
+    PI = Name/Arity.
+names(_, _) =>
+    fail.
 
 between_pieces(Text, Piece) :-
     split_string(Text, "`", "", Pieces),
