@@ -8,12 +8,12 @@ This is the interface of the layer: higher layers import from here.
 */
 
 :- reexport(agent/agents,
-            [ agent/5, agent_claim/3, agent_comes/5, agent_enter/3,
-              agent_extras_load/1, agent_extras_missing/1, agent_gone/3,
-              agent_handed/4, agent_here/5, agent_mail/2, agent_mobile/6,
-              agent_move/5, agent_note/3, agent_on/2, agent_passes/6,
+            [ agent/5, agent_claim/3, agent_enter/5, agent_enter/3,
+              agent_extras_load/1, agent_extras_missing/1, agent_remove/3,
+              agent_hand_over/4, agent_here/5, agent_mail/2, agent_mobile/6,
+              agent_move/5, agent_note/3, agent_on/2, agent_replace/6,
               agent_put/3, agent_put_life/2, agent_ready/2, agent_remove/2,
-              agent_rest/3, agent_rests/3, agent_sets_out/7, agent_status/3,
+              agent_rest/3, agent_rests/3, agent_departing/7, agent_status/3,
               agent_take/3, agent_thawed/5, agent_under_way/6, agent_wakes/2,
               is_life/1, life_before/2, life_clone/3, life_extras/2,
               life_hop/3, life_hops/2,

@@ -9,11 +9,11 @@ This is the interface of the layer: higher layers import from here.
 
 :- reexport(host/hosts,
             [ address_parts/3, host/3, host_address/2, host_admits/2,
-              host_again/1, host_came/2, host_closed/1, host_enter/3,
-              host_hop/4, host_hop_times/3, host_landing/4, host_leave/1,
-              host_left/2, host_link/3, host_link_cost/3, host_load/2,
+              host_again/1, host_arrival/2, host_closed/1, host_enter/3,
+              host_hop/4, host_hop_times/3, host_landing/4, host_uncount/1,
+              host_departure/2, host_link/3, host_link_cost/3, host_load/2,
               host_moved/4, host_neighbours/2, host_note/1, host_option/2,
-              host_passage/6, host_passes/2, host_plain_leaves/2, host_put/2,
+              host_passage/6, host_passes/2, host_plain_departure/2, host_put/2,
               host_resolve/2, host_unlink/2 ]).
 :- reexport('host/events').
 :- reexport(host/host_parts, [amended/5, parts/3, parts_call/3, parts_load/1]).

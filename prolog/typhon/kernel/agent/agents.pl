@@ -8,10 +8,10 @@
             agent_remove/2,             % +Id, -Orders
             agent_mobile/6,             % +Id, -Host, -Module, -Hash, -Life,
                                         % -Until
-            agent_sets_out/7,           % +Id, +Host, -Module, -Hash, -Life,
+            agent_departing/7,          % +Id, +Host, -Module, -Hash, -Life,
                                         % -Hops, -Until
             agent_move/5,               % +Id, +Host, +Module, +Life, +Until
-            agent_passes/6,             % +Id, +Host, +Module, +Hash, +Life,
+            agent_replace/6,            % +Id, +Host, +Module, +Hash, +Life,
                                         % +Until
             state_destroy/2,            % +Id, +Module
             agent_put_life/2,           % +Id, +Life
@@ -20,11 +20,11 @@
             agent_rest/3,               % +Id, +Status, +Goals
             agent_take/3,               % +Id, -Goals, -Order
             agent_claim/3,              % +Id, ?Status, -Goals
-            agent_comes/5,              % +Id, +Host, +Module, +Hash, +Life
-            agent_handed/4,             % +Id, +Hops, +Way, +Frame
+            agent_enter/5,              % +Id, +Host, +Module, +Hash, +Life
+            agent_hand_over/4,          % +Id, +Hops, +Way, +Frame
             agent_under_way/6,          % ?Id, ?Hops, -Host, -Hash, -Way,
                                         % -Frame
-            agent_gone/3,               % +Id, +Hops, -Mail
+            agent_remove/3,             % +Id, +Hops, -Mail
             agent_thawed/5,             % +Id, +Module, +Life, +Status, +Goals
             agent_ready/2,              % +Id, +Goals
             agent_wakes/2,              % +Id, +Goals
@@ -210,12 +210,13 @@ agent_mobile(Id, Host, Module, Hash, Life, Until) :-
     record(Id, Host, Module, Hash, Life, Until),
     !.
 
-%!  agent_sets_out(+Id, +Host, -Module, -Hash, -Life, -Hops, -Until) is semidet.
+%!  agent_departing(+Id, +Host, -Module, -Hash, -Life, -Hops, -Until)
+%                 is semidet.
 %
 %   As agent_mobile/6, for an agent on Host that may move and carries no extras.
 %   Life is its life with one more hop, number Hops.
 
-agent_sets_out(Id, Host, Module, Hash, Life, Hops, Until) :-
+agent_departing(Id, Host, Module, Hash, Life, Hops, Until) :-
     record(Id, Host, Module, Hash, Life0, Until),
     !,
     Life0 = life(Parent, Hops0, Most, Tokens, Payloads, false, []),
@@ -235,7 +236,7 @@ agent_sets_out(Id, Host, Module, Hash, Life, Hops, Until) :-
 agent_move(Id, Host, Module, Life, Until) :-
     record(Id, From, Old, Hash, _, _),
     !,
-    agent_passes(Id, Host, Module, Hash, Life, Until),
+    agent_replace(Id, Host, Module, Hash, Life, Until),
     parts_call(goes, From, [Id, From, Module]),
     parts_call(comes, Host, [Id, Host, Module, Hash]),
     (   Old == Module
@@ -243,12 +244,12 @@ agent_move(Id, Host, Module, Life, Until) :-
     ;   state_destroy(Id, Old)
     ).
 
-%!  agent_passes(+Id, +Host, +Module, +Hash, +Life, +Until:integer) is det.
+%!  agent_replace(+Id, +Host, +Module, +Hash, +Life, +Until:integer) is det.
 %
 %   Replace the record of Id.  The older one is removed last, so that readers
 %   always find one.  Clause references are not used, see typhon_prolog_faults.
 
-agent_passes(Id, Host, Module, Hash, Life, Until) :-
+agent_replace(Id, Host, Module, Hash, Life, Until) :-
     assertz(record(Id, Host, Module, Hash, Life, Until)),
     retract(record(Id, _, _, _, _, _)),
     !.
@@ -348,19 +349,19 @@ agent_claim(Id, Status, Goals) :-
                 *           UNDER WAY          *
                 *******************************/
 
-%!  agent_comes(+Id, +Host, +Module, +Hash, +Life) is det.
+%!  agent_enter(+Id, +Host, +Module, +Hash, +Life) is det.
 %
-%   Add a record of Id, which comes to Host, a plain host, and runs.
+%   Add a record of Id, which arrives at Host, a plain host, and runs.
 
-agent_comes(Id, Host, Module, Hash, Life) :-
+agent_enter(Id, Host, Module, Hash, Life) :-
     assertz(record(Id, Host, Module, Hash, Life, 0)).
 
-%!  agent_handed(+Id, +Hops, +Way, +Frame) is semidet.
+%!  agent_hand_over(+Id, +Hops, +Way, +Frame) is semidet.
 %
 %   Record that Id, which runs, is under way as Frame, and remove its record and
 %   its module.  Fails if Id has an order or was ended.
 
-agent_handed(Id, Hops, Way, Frame) :-
+agent_hand_over(Id, Hops, Way, Frame) :-
     record(Id, Host, Module, Hash, _, _),
     \+ agent_ordered(Id),
     \+ agent_rests(Id, _, _),
@@ -369,11 +370,11 @@ agent_handed(Id, Hops, Way, Frame) :-
     retract(record(Id, _, _, _, _, _)),
     '$destroy_module'(Module).
 
-%!  agent_gone(+Id, +Hops, -Mail:list) is semidet.
+%!  agent_remove(+Id, +Hops, -Mail:list) is semidet.
 %
 %   Remove the record of Id under way; Mail has come for it meanwhile.
 
-agent_gone(Id, Hops, Mail) :-
+agent_remove(Id, Hops, Mail) :-
     retract(agent_under_way(Id, Hops, _, _, _, _)),
     !,
     mail_all(Id, Mail).
@@ -420,7 +421,7 @@ wakes_on(Host, Id, Goals) :-
 agent_put_life(Id, Life) :-
     record(Id, Host, Module, Hash, _, Until),
     !,
-    agent_passes(Id, Host, Module, Hash, Life, Until),
+    agent_replace(Id, Host, Module, Hash, Life, Until),
     events_forget(Id),
     life_carried(Life, Id).
 

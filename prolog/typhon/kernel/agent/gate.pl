@@ -8,7 +8,7 @@
 :- use_module('../program', [code_known/2, code_receive/2]).
 :- use_module('../host',
               [ event/4, host/3, host_admits/2, host_closed/1, host_enter/3,
-                host_leave/1, host_load/2, parts/3, security_event/2,
+                host_uncount/1, host_load/2, parts/3, security_event/2,
                 security_event/3 ]).
 :- use_module(agent_module, [agent_program/3]).
 :- use_module(agents, [agent_on/2, life_tokens/2]).
@@ -91,7 +91,7 @@ enter(Host, Tokens, From, Install, Verdict) :-
         ;   catch(call(Install, Verdict), Ball,
                   not_installed(Ball, Host, Verdict))
         ),
-        ( Verdict == ok -> true ; host_leave(Host) )
+        ( Verdict == ok -> true ; host_uncount(Host) )
     ;   Verdict = Entered
     ).
 
@@ -99,7 +99,7 @@ not_installed(Ball, _, refused(Reason)) :-
     forbidden(Ball, Reason),
     !.
 not_installed(Ball, Host, _) :-
-    host_leave(Host),
+    host_uncount(Host),
     throw(Ball).
 
                 /*******************************

@@ -10,15 +10,15 @@
             host_admits/2,              % +Name, +Tokens
             host_enter/3,               % +Name, +Tokens, -Answer
             host_again/1,               % +Name
-            host_leave/1,               % +Name
+            host_uncount/1,             % +Name
             host_load/2,                % +Name, -Load
             host_hop_times/3,           % +Name, ?Direction, -Times
             host_hop/4,                 % +Name, +Direction, +Since, -Seconds
             host_moved/4,               % +Here, +Name, +Since, -Seconds
             host_landing/4,             % +Name, -Address, -Place, -Landing
-            host_came/2,                % +Landing, +Since
-            host_plain_leaves/2,        % +Name, -Since
-            host_left/2,                % +Name, +Since
+            host_arrival/2,             % +Landing, +Since
+            host_plain_departure/2,     % +Name, -Since
+            host_departure/2,           % +Name, +Since
             host_passage/6,             % +Here, +Host, ?Since, -Name-Address,
                                         % -Place0-Place, -Passage
             host_passes/2,              % +Passage, -Seconds
@@ -127,12 +127,12 @@ no_longer_plain(Name) :-
     forall(( Host = Name ; host(Name, Host, _) ),
            retractall(host_plain(Host, _, _))).
 
-%!  host_plain_leaves(+Name, -Since:float) is semidet.
+%!  host_plain_departure(+Name, -Since:float) is semidet.
 %
 %   A hop from Name to another process begins now, at Since.  Fails if Name is
 %   not plain, or delays hops.
 
-host_plain_leaves(Name, Since) :-
+host_plain_departure(Name, Since) :-
     host_plain(Name, _, plain(_, _, none, Epoch, Rate, _, _, _, _)),
     !,
     monotonic_time(Now),
@@ -319,17 +319,17 @@ count(Flag, Change) :-
     set_flag(Flag, Count).
 
 %!  host_landing(+Name, -Address, -Place, -Landing) is semidet.
-%!  host_came(+Landing, +Since) is semidet.
+%!  host_arrival(+Landing, +Since) is semidet.
 %
-%   Name, which is plain, can take an agent from another process.  host_came/2
-%   counts one that arrives by a hop that began at Since, in host time.  It fails
-%   and counts nothing if the host is full or no longer plain.
+%   Name, which is plain, can take an agent from another process.
+%   host_arrival/2 counts one that arrives by a hop that began at Since, in host
+%   time.  It fails and counts nothing if the host is full or no longer plain.
 
 host_landing(Name, Address, Place, landing(Name, Plain)) :-
     host_plain(Name, Name, Plain),      % its name, and not its address
     Plain = plain(Address, Place, _, _, _, _, _, _, _).
 
-host_came(landing(Name, Plain), Since) :-
+host_arrival(landing(Name, Plain), Since) :-
     Plain = plain(_, _, _, Epoch, Rate, _, _, _, _),
     monotonic_time(Now),
     Seconds is max(0.0, (Now-Epoch)*Rate-Since),
@@ -342,11 +342,11 @@ host_came(landing(Name, Plain), Since) :-
 host_again(Name) :-
     load_changes(Name, 1).
 
-%!  host_leave(+Name) is det.
+%!  host_uncount(+Name) is det.
 %
 %   Stop counting an agent in the load of Name.
 
-host_leave(Name) :-
+host_uncount(Name) :-
     load_changes(Name, -1).
 
 load_changes(Name, Change) :-
@@ -367,20 +367,20 @@ host_load(Name, Load) :-
                 *             HOPS             *
                 *******************************/
 
-%!  host_left(+Name, +Since) is det.
+%!  host_departure(+Name, +Since) is det.
 %
 %   Count an agent that has left Name for another process, by a hop that began
 %   at Since.
 
-host_left(Name, Since) :-
+host_departure(Name, Since) :-
     host_plain(Name, _, plain(_, _, _, Epoch, Rate, _, Load, _, Out)),
     !,
     monotonic_time(Now),
     Seconds is max(0.0, (Now-Epoch)*Rate-Since),
     with_mutex(typhon_host_flags, left(Load, Out, Seconds)).
-host_left(Name, Since) :-
+host_departure(Name, Since) :-
     ignore(host_hop(Name, out, Since, _)),
-    host_leave(Name).
+    host_uncount(Name).
 
 %!  host_moved(+Here, +Name, +Since, -Seconds:float) is det.
 %
@@ -394,7 +394,7 @@ host_moved(Here, Name, Since, Seconds) :-
     ),
     ignore(hop_count(Here, out, Seconds)),
     ignore(hop_count(Name, in, Seconds)),
-    host_leave(Here).
+    host_uncount(Here).
 
 %!  host_passes(+Passage, -Seconds:float) is semidet.
 %

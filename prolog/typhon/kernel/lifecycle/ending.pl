@@ -14,7 +14,7 @@
 :- use_module('../base/on_demand', [on_demand_call/3]).
 :- use_module('../base/reports', [report/4]).
 :- use_module('../host',
-              [event/4, events_forget/1, host/3, host_again/1, host_leave/1]).
+              [event/4, events_forget/1, host/3, host_again/1, host_uncount/1]).
 :- use_module('../agent',
               [ agent/5, agent_ordered/1, agent_put/3, agent_ready/2,
                 agent_remove/2, agent_status/3, fault_error/2, fault_outcome/2,
@@ -93,7 +93,7 @@ agent_forgotten(Id, Test) :-
                      agent(Id, Host, _, _, _),
                      agent_remove(Id, Orders) )),
     events_forget(Id),
-    host_leave(Host),
+    host_uncount(Host),
     answer_none(Id, Orders).
 
 %   The bad end was reported when the agent became faulty.
@@ -108,7 +108,7 @@ report_end(last(Host, Hops, faulty(_), Goals, Results, _), Id, _) :-
 report_end(last(Host, Hops, Status, _, Results, _), Id, Outcome) :-
     debug(typhon(agent), '~w: ends on ~w, ~p', [Id, Host, Outcome]),
     warn_if_in_doubt(Status, Id),
-    host_leave(Host),
+    host_uncount(Host),
     event(life, Host, Id, ended(Outcome)),
     events_forget(Id),
     agent_ended(Id, Outcome, Hops, Results).
@@ -203,7 +203,7 @@ faulty_keep(Id, Goals, at(Host, Hops)) :-
         fault_error(Fault, Error),
         agent_put(Id, faulty(Error), Goals),
         assertz(kept(Id)),
-        host_leave(Host)
+        host_uncount(Host)
     ),
     !.
 

@@ -51,11 +51,11 @@ agent; answers and taken_over/4 in the threads of the endpoint, which never wait
 
 :- use_module(library(debug), [debug/3]).
 :- use_module('../agent',
-              [ agent/5, agent_build/5, agent_comes/5, agent_gone/3,
-                agent_handed/4, agent_here/5, agent_links/4, agent_mobile/6,
-                agent_module/4, agent_move/5, agent_on/2, agent_passes/6,
+              [ agent/5, agent_build/5, agent_enter/5, agent_remove/3,
+                agent_hand_over/4, agent_here/5, agent_links/4, agent_mobile/6,
+                agent_module/4, agent_move/5, agent_on/2, agent_replace/6,
                 agent_put/3, agent_ready/2, agent_relink/2, agent_rests/3,
-                agent_sets_out/7, agent_state/2, agent_state_mobile/4,
+                agent_departing/7, agent_state/2, agent_state_mobile/4,
                 agent_status/3, agent_thawed/5, agent_under_way/6, gate/4,
                 image_amended/5, image_handed/7, image_hash/2, image_held/2,
                 image_plain/8, life_before/2, life_hop/3,
@@ -66,9 +66,9 @@ agent; answers and taken_over/4 in the threads of the endpoint, which never wait
 :- use_module('../base/error_text', [print_error/2]).
 :- use_module('../host',
               [ address_parts/3, amended/5, event/4, event_subscribed/1,
-                host/3, host_came/2, host_landing/4, host_left/2,
+                host/3, host_arrival/2, host_landing/4, host_departure/2,
                 host_moved/4, host_passage/6, host_passes/2,
-                host_plain_leaves/2, host_time/2, parts/3, real_time/3,
+                host_plain_departure/2, host_time/2, parts/3, real_time/3,
                 schedule/2, schedule_here/3, schedule_stays/2,
                 scheduler_call/1 ]).
 :- use_module('../program', [code_compiled/2, plain_goals/2]).
@@ -289,10 +289,10 @@ handle_answer(need_program, Transfer) :-
 %   terms cannot travel, it may not move, or it has an order.
 
 hand_over(Id, Host, remote(Address, Name, Endpoint), Hole, Goals) :-
-    host_plain_leaves(Host, Since),
+    host_plain_departure(Host, Since),
     \+ durable_on,
     \+ event_subscribed(hops),
-    agent_sets_out(Id, Host, Module, Hash, Life, Hops, _),
+    agent_departing(Id, Host, Module, Hash, Life, Hops, _),
     !,
     agent_state(Module, State),
     (   mail_waits(Id)
@@ -331,7 +331,7 @@ framed(Endpoint, Name, Hash, Image, Frame) :-
 
 leave(Transfer, Since, Frame) :-
     Transfer = transfer(Id, Dest, Hops),
-    agent_handed(Id, Hops, way(Dest, Since), Frame),
+    agent_hand_over(Id, Hops, way(Dest, Since), Frame),
     catch(endpoint_hand_over(Frame, Transfer), error(session_closed, _),
           scheduler_call(typhon_hop:settled(unsent, Transfer))).
 
@@ -345,7 +345,7 @@ typhon_endpoint:handed_over(Transfer, Result) :-
 settled(accepted, transfer(Id, Dest, Hops)) :-
     with_agent(Id, departed(Id, Dest, Hops, Host, Since)),
     !,
-    host_left(Host, Since).
+    host_departure(Host, Since).
 settled(Result, Transfer) :-
     ignore(( Transfer = transfer(Id, _, _),
              with_agent(Id, thawed(Id)) )),
@@ -358,7 +358,7 @@ departed(Id, dest(Address, _, _), Hops, Host, Since) :-
     agent_under_way(Id, Hops, Host, _, way(_, Since), Frame),
     endpoint_hand_to(Frame, Process),
     agent_departed(Id, Address, Hops, Process),
-    agent_gone(Id, Hops, Mail),
+    agent_remove(Id, Hops, Mail),
     post_on(Id, Mail).
 
                 /*******************************
@@ -420,8 +420,8 @@ install(Id, Hops, Host-Place, Landing, Hash-Program, Life, Clauses, Since,
     \+ backlog(Id),
     hop_is_new(Id, Hops, Home),
     agent_module(Id, Place, Program, Clauses),
-    (   host_came(Landing, Since)
-    ->  agent_comes(Id, Host, Id, Hash, Life)
+    (   host_arrival(Landing, Since)
+    ->  agent_enter(Id, Host, Id, Hash, Life)
     ;   '$destroy_module'(Id),
         fail
     ).
@@ -450,7 +450,7 @@ hop_at_once(Id, Here, Host, Hole, Goals, Next) :-
 %   hop_plain(+Id, +Hosts, +Way, +Held, -Next) is semidet: between plain hosts.
 
 hop_plain(Id, Here-There, Way, Hole-Goals, Next) :-
-    agent_sets_out(Id, Here, Module, Hash, Life, Hops, Until0),
+    agent_departing(Id, Here, Module, Hash, Life, Hops, Until0),
     !,
     agent_state_mobile(Module, Until0, Until, free),
     mobile_term(Life-Goals),
@@ -473,7 +473,7 @@ pass(Id, Here-Name, (Place0-Place)-Passage, going(Module, Hash, Life, Until),
     !,
     agent_relink(Module, Links),
     ( Hole = true -> true ; true ),     % no hole
-    agent_passes(Id, Name, Module, Hash, Life, Until),
+    agent_replace(Id, Name, Module, Hash, Life, Until),
     (   schedule_stays(Here, Name)
     ->  Next = elsewhere(Name, Module, Goals)
     ;   Next = stop,

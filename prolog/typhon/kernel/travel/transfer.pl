@@ -63,7 +63,7 @@ resolve_in_doubt/1 in reader threads, which never wait; ask_peers/2 in a worker.
 :- use_module('../base/reports', [report/4]).
 :- use_module('../host',
               [ address_parts/3, alarm_in/3, event/4, events_forget/1,
-                host_left/2, scheduler_call/1 ]).
+                host_departure/2, scheduler_call/1 ]).
 :- use_module('../program', [answer_at/3]).
 :- use_module('../wire',
               [ endpoint_address/1, endpoint_call/5, endpoint_gone/1,
@@ -255,7 +255,7 @@ let_go(Id, Since, Mail, Orders,
 
 count_departure(Id, Host, Since) :-
     ignore(move_over(Id, answer(arrived))),
-    host_left(Host, Since).
+    host_departure(Host, Since).
 
 follow(Id, Order) :-
     scheduler_call(forward_order(Id, Order)).

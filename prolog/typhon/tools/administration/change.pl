@@ -11,7 +11,8 @@
 :- use_module('../../kernel/host', [host/3, parts/3]).
 :- use_module('../../kernel/agent',
               [ agent/5, agent_add/2, agent_clauses/3, agent_module/5,
-                agent_passes/6, agent_state/2, state_destroy/2, with_agent/2 ]).
+                agent_replace/6, agent_state/2, state_destroy/2,
+                with_agent/2 ]).
 :- use_module('../../kernel/lifecycle', [order_give/3]).
 
 /** <module> Changes of agents by users
@@ -83,7 +84,7 @@ change_made(program(Hash, Sent), Id) :-
     maplist(not_static(Program), Clauses),
     append(PIs, Empty, Declared),
     agent_module(Id, Place, Hash, state(Declared, Clauses), Module),
-    with_agent(Id, ( agent_passes(Id, Host, Module, Hash, Life, 0),
+    with_agent(Id, ( agent_replace(Id, Host, Module, Hash, Life, 0),
                      state_destroy(Id, Module0) )).
 
 %   A part of the host may forbid the program, as it would for an agent that

@@ -745,10 +745,10 @@ test(stubborn, [ forall(( stubborn(Clauses),
     stopped(Options, Clauses, O).
 test(agent_has_ended_when_its_host_has_stopped, O == disposed) :-
     setup_call_cleanup(
-        wrap_predicate(typhon_hosts:host_leave(_), slow, Left,
+        wrap_predicate(typhon_hosts:host_uncount(_), slow, Left,
                        ( sleep(0.4), Left )),
         stopped([], [(main :- between(1, inf, _), fail)], O),
-        unwrap_predicate(typhon_hosts:host_leave/1, slow)).
+        unwrap_predicate(typhon_hosts:host_uncount/1, slow)).
 test(deadline_is_set_before_the_agent_rests,
      [ forall(member(Wait, [sleep(60), receive(_, 60), move(beta)])),
        States == [running] ]) :-
