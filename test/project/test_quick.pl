@@ -118,7 +118,7 @@ in_wire(Suite) :-
     file_directory_name(Suite, 'test/prolog/kernel/wire').
 
 test(changed_suite_comes_before_all) :-
-    Suite = 'test/prolog/kernel/base/test_json.pl',
+    Suite = 'test/prolog/kernel/base/test_on_demand.pl',
     suites(['prolog/typhon/kernel/wire/frame.pl', Suite], [Suite|_]).
 
 test(suites_that_use_a_helper_also_of_a_helper, Missing == []) :-
