@@ -114,13 +114,15 @@ launch(Filter, process(Pid, In, Out, Err)) :-
     set_stream(Out, buffer(full)).
 
 %   The program loads the vocabulary of this process, and the option `identity`
-%   to read signed programs.
+%   to read signed programs.  Without threads these are loaded in place: the end
+%   of a thread that has loaded a file cannot be awaited.
 
 program(Library, Goal) :-
     setof(File, vocabulary_file(Library, File), Files),
     format(atom(Goal),
            'set_prolog_flag(gc_thread,false),\c
             use_module(\'/typhon/typhon/options/cell/inside\'),\c
+            set_prolog_flag(threads,false),\c
             use_module(\'/typhon/typhon/options/identity\',[]),\c
             forall(lists:member(F,~q),use_module(F,[])),\c
             typhon_cell_inside:cell_main',

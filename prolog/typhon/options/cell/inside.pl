@@ -45,8 +45,6 @@ may do whatever the operating system allows this process.
 :- public cell_main/0.
 
 cell_main :-
-    set_prolog_flag(gc_thread, false),
-    set_prolog_flag(threads, false),
     set_prolog_flag(stack_limit, 268 435 456),
     set_setting(typhon_code:programs, 10 000),
     connection(In, Out),
