@@ -25,9 +25,6 @@ stopped waits for a message, which the handlers of signals send.
 :- use_module(typhon/arguments, [arguments_complete/2]).
 :- use_module(typhon/commands, [command/4, footer/2, option/5]).
 :- use_module(typhon/diagnose, [diagnose/1]).
-:- use_module(typhon/diagnose_fipa, [diagnose_fipa/1]).
-:- use_module(typhon/diagnose_bridges, [diagnose_bridge/2]).
-:- use_module(typhon/diagnose_nxt, [diagnose_nxt/1]).
 :- use_module(typhon/journal, [journal_shown/2]).
 :- use_module(typhon/keys, [keys/3, keys_sign_file/3]).
 :- use_module(typhon/options, [options_for/3]).
@@ -37,6 +34,9 @@ stopped waits for a message, which the handlers of signals send.
 :- use_module(typhon/serving, [and_then/2, run_until_stopped/3]).
 :- use_module(typhon/story, [story/2]).
 :- use_module(typhon/usage, [complain/2]).
+:- autoload('typhon/bridges/diagnose', [diagnose_bridge/2]).
+:- autoload('typhon/fipa/diagnose', [diagnose_fipa/1]).
+:- autoload('typhon/nxt/diagnose', [diagnose_nxt/1]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(main), [argv_options/4, main/0]).
 :- use_module(library(option), [option/2, option/3]).

@@ -25,6 +25,7 @@
   - a module that inherits from `user`, or calls what it does not import;
   - an index of what is loaded on demand that is not up to date (`index`
     writes it, prolog/typhon/kernel/base/index.pl);
+  - a file that needs a part which may be left out (app/packaging/parts.pl);
   - a clause that handles what another process sends, which
     prolog/typhon/kernel/wire/kinds.pl does not declare, a declaration that no
     clause handles, or a table in doc/wire.md that is not up to date (`kinds`

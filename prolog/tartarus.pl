@@ -25,6 +25,7 @@ names.
 */
 
 :- use_module(library(prolog_wrap), [wrap_predicate/4]).
+:- use_module(typhon/kernel/base/on_demand, []).
 :- use_module(typhon/tools/user_errors, [user_errors/1]).
 :- reexport(tartarus/platform,
             [ start_tartarus/1, start_tartarus/2, start_tartarus/3,

@@ -24,7 +24,8 @@ inherit its blocked signals, SIGINT for one.
               [ kill_all_left_behind/0, kill_left_behind/2, suite_mark/2 ]).
 :- use_module('lib/quick_swipl', [quick_swipl/2]).
 :- use_module('lib/slowness', [measure_slowness/0, patience/2]).
-:- use_module('lib/suites', [all_suites/1, suite_name/2, suite_named/2]).
+:- use_module('lib/suites',
+              [all_suites/1, left_out_suites/2, suite_name/2, suite_named/2]).
 :- use_module(library(apply), [exclude/3, foldl/4, maplist/3]).
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
@@ -70,6 +71,7 @@ longest([ chaos, shell, user_program, scripted, faults, network_journal,
 %   start attackers that know only the wire protocol.
 
 plain(pack).
+plain(parts).
 plain(shell).
 plain(site).
 plain(child_output).
@@ -83,6 +85,7 @@ plain(on_demand).
 
 main(Argv) :-
     arguments(Argv, Names, []),
+    left_out_suites(Names, LeftOut),
     suite_files(Names, Files0),
     map_list_to_pairs(place, Files0, Pairs0),
     keysort(Pairs0, Pairs),
@@ -90,7 +93,8 @@ main(Argv) :-
     at_halt(kill_all_left_behind),
     on_signal(term, _, terminated),
     measure_slowness,
-    with_tmp_dir(run_suites(Files, Suites)),
+    with_tmp_dir(run_suites(Files, Suites0)),
+    foldl(report_left_out, LeftOut, Suites0, Suites),
     forall(member(Suite, Suites), print_failures(Suite)),
     foldl(add_suite, Suites, sum(0, 0, 0), Sum),
     print_sum(Sum),
@@ -206,7 +210,8 @@ suite_files(Names, Files) :-
 
 named_suites(Name, Files) :-
     findall(File, suite_named(Name, File), Files),
-    (   Files == []
+    (   Files == [],
+        left_out_suites([Name], [])
     ->  format(user_error, 'No such test suite: ~w~n', [Name]),
         halt(1)
     ;   true
@@ -376,6 +381,10 @@ report(suite(Base, Passed, Failures, Skipped), Problems, Seconds, Spent, Log) :-
     ;   true
     ),
     flush_output.
+
+report_left_out(File-Part, Suites, [suite(Base, 0, [], [Part])|Suites]) :-
+    file_base_name(File, Base),
+    format('~w~t~30|  skipped, without the part ~w~n', [Base, Part]).
 
 report_failures(Base, Problems, Log) :-
     format('---- output of ~w~n', [Base]),

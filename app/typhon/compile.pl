@@ -47,6 +47,12 @@ user:prolog_load_file(_:Spec, _) :-
     load_files(Stem, [qcompile(auto), imports([])]),
     fail.
 
+%   Nothing uses the libraries of parts that are left out now.
+
+:- multifile user:message_hook/3.
+
+user:message_hook(error(existence_error(typhon_part, _), _), _, _).
+
 library_file(Spec, File) :-
     library_dir(Library),
     (   prolog_load_context(directory, Dir)

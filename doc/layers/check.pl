@@ -7,6 +7,7 @@
 :- use_module(index, [index_problem/1]).
 :- use_module(kinds, [kinds_problem/1]).
 :- use_module(loaded, [loaded_problem/1]).
+:- use_module(parts, [parts_problem/1]).
 :- use_module(seams).
 :- use_module(tree).
 
@@ -82,6 +83,8 @@ problem(Problem) :-
     index_problem(Problem).
 problem(Problem) :-
     kinds_problem(Problem).
+problem(Problem) :-
+    parts_problem(Problem).
 problem(Problem) :-
     loaded_problem(Problem).
 
@@ -302,6 +305,10 @@ says(stale_kinds, 'doc/wire.md: its table of kinds is not what it is to be: run 
      doc/layers.pl -- kinds', []).
 says(stale_index(F), '~w: is not what it is to be: run doc/layers.pl -- index',
      [F]).
+says(needs_part(F, Used, Part), '~w: needs ~w of the part ~w, which may be \c
+     left out, see app/packaging/parts.pl', [F, Used, Part]).
+says(no_such_path(Part, Path), 'app/packaging/parts.pl: ~w of ~w is not there',
+     [Path, Part]).
 says(inherits(M), '~w does not inherit from system', [M]).
 says(expanded(M, PI), '~w: a clause of ~w has a lambda expression or a function \c
      on dicts, see kernel/base/compiling.pl', [M, PI]).

@@ -6,6 +6,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(solution_sequences), [distinct/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(parts, [is_part/1]).
 :- use_module(tree).
 
 /** <module> The index of what is loaded on demand
@@ -131,6 +132,7 @@ part_joins(Domain, Name, Part) :-
 part_file(Part, Path) :-
     on_demand(File, Part),
     once(( hook_clause(File, Module:_), atom_concat(typhon_, _, Module) )),
+    \+ is_part(File),                   % loaded by the layer, if it is there
     path(File, Path).
 
 part_setting(part_setting(Name, Module, Type, Default, Text, Path)) :-

@@ -15,6 +15,7 @@ with pyserial.  Nothing is defined here: see the modules in bridges/nxt/.
   | the names of SWI-PRO-NXT    | typhon/bridges/nxt/swi_pro_nxt |
 */
 
+:- use_module(kernel/base/on_demand, []).
 :- use_module(bridges/common/error_texts, []).
 :- use_module(tools/user_errors, [user_errors/1]).
 :- use_module(tools/old_settings, []).
@@ -22,6 +23,8 @@ with pyserial.  Nothing is defined here: see the modules in bridges/nxt/.
 :- reexport('bridges/nxt/motors').
 :- reexport('bridges/nxt/sensors').
 :- reexport('bridges/nxt/files').
+:- if(exists_source(bridges/nxt/swi_pro_nxt)).
 :- reexport('bridges/nxt/swi_pro_nxt').
+:- endif.
 
 :- user_errors(typhon_nxt).

@@ -18,11 +18,12 @@
 %   is in one section of doc/contents.md. And every export of the library has a
 %   PlDoc comment with modes.
 
+:- use_module('../../app/packaging/parts', [installed/1, left_out/2]).
 :- use_module('../lib/common').
 :- use_module('../lib/texts', [write_file/2, file_lines/2]).
 :- use_module('../lib/transcript', [transcript_differences/4]).
-:- use_module('../../doc/pictures/studies', [study_picture/3]).
-:- use_module('../lib/documents', [document/1]).
+:- use_module('../lib/documents',
+              [document/1, outside/3, points_to/2, prose/2]).
 :- use_module(library(apply), [exclude/3, maplist/2]).
 :- use_module(library(filesex),
               [ directory_file_path/3, directory_member/3,
@@ -140,6 +141,13 @@ broken_link(File, Link) :-
     \+ leads_somewhere(File, Link).
 
 leads_somewhere(File, Link) :-
+    atomic_list_concat([Path|_], #, Link),
+    file_directory_name(File, Dir),
+    absolute_file_name(Path, Target, [relative_to(Dir)]),
+    project_file(Relative, Target),
+    left_out(Relative, _),
+    !.
+leads_somewhere(File, Link) :-
     atomic_list_concat([Path|Place], #, Link),
     (   Path == ''
     ->  Target = File
@@ -152,25 +160,6 @@ leads_somewhere(File, Link) :-
     ;   true
     ),
     !.
-
-%   The text of a document, without its blocks and what is code in a line.
-
-prose(File, Prose) :-
-    read_file_to_string(File, Text, [encoding(utf8)]),
-    outside(Text, "```", Lines),
-    atomic_list_concat(Lines, Joined),
-    outside(Joined, "`", Parts),
-    atomic_list_concat(Parts, Prose).
-
-outside(Text, Mark, Outside) :-
-    atomic_list_concat(Parts, Mark, Text),
-    findall(Part, ( nth0(N, Parts, Part), N mod 2 =:= 0 ), Outside).
-
-points_to(Text, Link) :-
-    atomic_list_concat([_|Parts], '](', Text),
-    member(Part, Parts),
-    once(sub_atom(Part, Length, _, _, ')')),
-    sub_atom(Part, 0, Length, _, Link).
 
 heading(File, Id) :-
     read_file_to_string(File, Text, [encoding(utf8)]),
@@ -341,22 +330,6 @@ broken_links_in(Text, Links, Dir) :-
                 *             TESTS            *
                 *******************************/
 
-%   See doc/pictures.pl.
-
-is_made('layers.svg').
-is_made('spacetime.svg').
-is_made(Picture) :-
-    member(Kind, ['page-', 'application-']),
-    atom_concat(Kind, _, Picture).
-is_made(Picture) :-
-    study_picture(Picture, _, _).
-
-scouts_made(Text, Dir) :-
-    project_file('doc/pictures.pl', Script),
-    run_swipl([Script, '--', Dir, spacetime], [], exit(0), _, _),
-    directory_file_path(Dir, 'spacetime.svg', File),
-    read_file_to_string(File, Text, []).
-
 :- begin_tests(documentation).
 
 %   The packages that documents need beside python3, and other suites do not.
@@ -367,6 +340,16 @@ needs('doc/security.md', cells).
 needing(Group, File) :-
     needs(Document, Group),
     project_file(Document, File).
+
+%   uses(?Document, ?Part): what its sessions show is of Part.
+
+uses('doc/time.md', migration).
+uses('doc/tutorial.md', migration).
+
+shown_elsewhere(File) :-
+    uses(Document, Part),
+    project_file(Document, File),
+    \+ installed(Part).
 
 %   README.md is typed at all terminals, every other document at one of them.
 
@@ -384,7 +367,8 @@ document_at(File, Terminal) :-
 other_document(File) :-
     document(File),
     \+ project_file('README.md', File),
-    \+ needing(_, File).
+    \+ needing(_, File),
+    \+ shown_elsewhere(File).
 
 terminal(terminal(Columns, Colour)) :-
     member(Columns, [60, 80, 132]),
@@ -476,24 +460,6 @@ test(broken_links_are_found,
          [c](doc.md#a-heading-code--more) [d](doc.md#none) [e](#none)\n\c
          `[f](no)`\n```\n[g](no)\n# none\n```\n",
         Links)).
-
-% The pictures of layers and of virtual time are reproducible, but the former
-% changes with each module.
-
-test(all_pictures_are_made_by_one_command, Missing == []) :-
-    findall(Picture,
-            ( document(File),
-              prose(File, Text),
-              points_to(Text, Link),
-              file_directory_name(Link, Dir),
-              file_base_name(Dir, img),
-              file_base_name(Link, Picture),
-              \+ is_made(Picture) ),
-            Missing).
-test(picture_of_scouts_is_up_to_date, Shown == Made) :-
-    with_tmp_dir(scouts_made(Made)),
-    project_file('doc/img/spacetime.svg', File),
-    read_file_to_string(File, Shown, []).
 
 test(every_export_has_a_comment_with_modes, Missing == []) :-
     findall(Base:PI,

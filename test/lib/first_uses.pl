@@ -1,4 +1,5 @@
 :- module(test_first_uses, [first_uses/1]).
+:- use_module('../../app/packaging/parts', [installed/1]).
 :- use_module(common, [with_tmp_dir/1]).
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(filesex), [directory_file_path/3]).
@@ -52,7 +53,8 @@ use(agent_ends([(main :- sleep(0), fail), (on_message(_, _))]), _).
 use(agent_ends([(main :- attach(clauses([(:- payload(p, [])), q(1)])), q(X),
                          result(X))]), _).
 use(agent_ends([(main :- send(mqtt, x), send(unknown, x), sleep(0))]), _).
-use(agent_ends([(main :- next_host(random, H), move(H))]), _).
+use(agent_ends([(main :- next_host(random, H), move(H))]), _) :-
+    installed(migration).
 use(agent_ends([(main :- clone(_), offer(service), sleep(0))]), _).
 use(remote(a, true), _).
 use(host_change(a, policy(guarded)), _).

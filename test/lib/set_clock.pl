@@ -1,6 +1,7 @@
 :- module(set_clock,
           [ with_settable_clock/2,      % -Environment, :Goal
             clock_is_settable/0,
+            python_waits/0,
             clock_set/1,                % +Seconds
             seconds_of/2                % :Goal, -Seconds
           ]).
@@ -13,6 +14,8 @@ day follow it, as those of the system follow its clock.
 *Threading*: the main thread sets up; any thread sets the clock.
 */
 
+:- use_module('../../app/packaging/parts', [installed/1]).
+:- use_module(common, [missing/2]).
 :- use_module(preloaded, [can_preload/1, with_preloaded/4]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 
@@ -26,6 +29,14 @@ day follow it, as those of the system follow its clock.
 
 clock_is_settable :-
     can_preload(set_clock).
+
+%!  python_waits is semidet.
+%
+%   Calls of Python can be among what waits.
+
+python_waits :-
+    installed(bridges),
+    missing([python3], []).
 
 %!  with_settable_clock(-Environment:list, :Goal) is semidet.
 %

@@ -18,7 +18,6 @@ are one scenario: they wait together, and the clock is set once.
 :- use_module(library(random), [random_member/2]).
 :- use_module(library(thread), [concurrent/3]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/python)).
 :- use_module(library(typhon/kernel), [agents_run/1]).
 :- use_module(library(typhon/kernel/base/monotonic), [wait_within/2]).
 
@@ -60,7 +59,7 @@ lasts(Goal, Word) :-
     ).
 
 scenario(waits, Step, Results) :-
-    ( missing([python3], []) -> Naps = [nap, long_nap] ; Naps = [] ),
+    ( python_waits -> Naps = [nap, long_nap] ; Naps = [] ),
     append([sleep, receive, join, agents_run], Naps, Waits),
     project_file('test/lib/python_functions.py', File),
     host_start(here),
@@ -97,7 +96,8 @@ scenario(network, Step, Outcome-Word) :-
                   agent_create(clauses([ (:- agent(walker, [])),
                                          (main :- walk(10)),
                                          (walk(0) :- !),
-                                         (walk(N) :- next_host(random, H),
+                                         (walk(N) :- neighbours(Hs),
+                                                     random_member(H, Hs),
                                                      move(H), sleep(0.1),
                                                      N1 is N-1, walk(N1)) ]),
                                Agent, [host(Host)]),
@@ -115,7 +115,8 @@ scenario(chaos, Most, Outcomes) :-
                                      sum(0),
                                      (main :- walk(60)),
                                      (walk(0) :- !, sum(60)),
-                                     (walk(N) :- next_host(random, H), move(H),
+                                     (walk(N) :- neighbours(Hs),
+                                                 random_member(H, Hs), move(H),
                                                  retract(sum(S)), S1 is S+1,
                                                  assertz(sum(S1)), rest(N),
                                                  N1 is N-1, walk(N1)),

@@ -1,5 +1,6 @@
 :- module(test_suites,
           [ all_suites/1,               % -Files
+            left_out_suites/2,          % +Names, -Skipped
             suite_name/2,               % +File, -Name
             suite_named/2               % +Name, -File
           ]).
@@ -12,6 +13,7 @@ or, with all others of its folder, `prolog/kernel/wire`.
 *Threading*: any thread.
 */
 
+:- use_module('../../app/packaging/parts', [left_out/2]).
 :- use_module(common, [project_file/2]).
 :- use_module(library(filesex), [directory_member/3]).
 :- use_module(library(lists), [member/2]).
@@ -30,6 +32,24 @@ all_suites(Files) :-
 suite_in(Dir, File) :-
     directory_member(Dir, File, [recursive(true), extensions([pl])]),
     suite_name(File, _).
+
+%!  left_out_suites(+Names, -Skipped:list) is det.
+%
+%   Skipped are the suites, File-Part, of parts that are left out: all of them,
+%   or those with Names.
+
+left_out_suites(Names, Skipped) :-
+    findall(File-Part,
+            ( left_out(Path, Part),
+              sub_atom(Path, 0, _, _, 'test/'),
+              suite_name(Path, _),
+              project_file(Path, File),
+              once(( Names == []
+                   ; member(Name, Names),
+                     is_named(Name, File)
+                   )) ),
+            Skipped0),
+    sort(Skipped0, Skipped).
 
 %!  suite_name(+File, -Name) is semidet.
 %

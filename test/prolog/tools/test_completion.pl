@@ -1,5 +1,6 @@
 :- module(test_completion, []).
 :- use_module(library(plunit)).
+:- use_module('../../../app/packaging/parts', [installed/1]).
 :- use_module('../../lib/common').
 :- use_module('../../lib/networks').
 :- use_module('../../lib/fixtures').
@@ -71,13 +72,14 @@ test(agents_of_one_name_are_completed_by_id) :-
                          ( term_to_atom(Id, Text),
                            agent_property(Id, state(_)) )) )),
     assertion(Count == 2).
-test(programs, Line == "agent_create(agents(sync/traveller") :-
+test(programs,
+     [ condition(installed(studies)), Line == "agent_create(agents(sync/traveller" ]) :-
     on_tab("agent_create(agents(sync/tr", Line).
-test(programs_of_a_folder) :-
+test(programs_of_a_folder, condition(installed(studies))) :-
     completed("agent_create(agents(sync/", Texts),
     subset(['sync/specialist', 'sync/traveller', 'sync/worker'], Texts),
     assertion(\+ memberchk('sync/operator', Texts)).
-test(payloads) :-
+test(payloads, condition(installed(studies))) :-
     completed("[payloads([payloads(sieve/", Texts),
     assertion(memberchk('sieve/bits', Texts)).
 test(networks, Line == Wanted) :-

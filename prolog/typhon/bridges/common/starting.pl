@@ -287,18 +287,10 @@ properties_at(remote(_, Name, _), Wanted, Host, Properties) :-
     remote(Host, typhon_starting:properties_at(local(Name), Wanted, Name,
                                                Properties)).
 
-:- dynamic folder/1.                    % of the bridges' interfaces
-
-:- module_property(typhon_starting, file(Source)),
-   file_directory_name(Source, Dir),
-   file_directory_name(Dir, Bridges),
-   file_directory_name(Bridges, Typhon),
-   retractall(folder(_)),
-   assertz(folder(Typhon)).
-
 load(Bridge) :-
-    folder(Typhon),
-    atomic_list_concat([Typhon, Bridge], /, File),
+    module_property(typhon_starting, file(Source)),
+    format(atom(Service), '../~w/service', [Bridge]),
+    absolute_file_name(Service, File, [relative_to(Source)]),
     use_module(File, []).
 
                 /*******************************

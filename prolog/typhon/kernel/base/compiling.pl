@@ -2,6 +2,7 @@
           [ compiling_begin/1,          % -Flags
             compiling_end/1,            % +Flags
             compiling/1,                % :Goal
+            own_file/1,                 % +File
             topics/1                    % +Names
           ]).
 :- ':'(system, set_module(':'(typhon_compiling, base(system)))).
@@ -66,8 +67,10 @@ flag(autoload, explicit) :-             % else what is declared is loaded now
    retractall(library(_)),
    assertz(library(Library)).
 
-%   own_file(+File) is semidet: it belongs to Typhon, and is no program of an
-%   agent or a user in the same directory.  In a distribution the folder of the
+%!  own_file(+File) is semidet.
+%
+%   File belongs to Typhon, and is no program of an agent or a user in the same
+%   directory.  In a distribution the folder of the
 %   library is `prolog`, and the others are beside it.
 
 own_file(File) :-

@@ -101,7 +101,7 @@ files('options/external_recipients',['options/external_recipients']).
 files('options/guard',['options/guard']).
 files('options/host_log',['options/host_log']).
 files('options/identity',['options/identity/authors','options/identity/birth','options/identity/sender_rights']).
-files('options/journal',['options/journal/channel','options/journal/committing','options/journal/hop_ids','options/journal/journaled_agents','options/journal/journaled_tuples','options/journal/postgresql','options/journal/recovery','options/journal/store','options/journal/units_of_work']).
+files('options/journal',['options/journal/channel','options/journal/committing','options/journal/hop_ids','options/journal/journaled_agents','options/journal/journaled_tuples','options/journal/recovery','options/journal/store','options/journal/units_of_work']).
 files('options/migration',['options/migration/pheromone','options/migration/strategy']).
 files('options/payloads',['options/payloads']).
 files('options/quotas',['options/quotas','options/quotas/quota_agents','options/quotas/quota_enforcer','options/quotas/quota_table','options/quotas/usage']).

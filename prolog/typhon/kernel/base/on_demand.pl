@@ -5,8 +5,9 @@
             on_demand_call/3,           % +Seam, +What, +Goal
             on_demand_later/1           % :Goal
           ]).
-:- use_module(library(lists), [memberchk/2]).
-:- use_module(compiling, [compiling/1]).
+:- use_module(library(error), [existence_error/2]).
+:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(compiling, [compiling/1, own_file/1]).
 :- use_module(index, [part_file/2, part_joins/3, part_setting/6]).
 :- use_module(own_thread, [uncounted/1]).
 
@@ -37,13 +38,17 @@ Other threads run meanwhile, and call hooks. So clauses of hooks are compiled
 when the rest of their file is loaded: a hook works from the moment it is
 visible.
 
+A part may be left out of an installation.  Then what would load it raises an
+error that names it.
+
 *Threading*: any thread but those of the endpoint, which pass the goal to a
 worker by on_demand_later/1.
 */
 
 :- multifile
     joins/2,                    % Seam, What: the part is loaded there, too
-    worker_call/1.              % Goal: call it once in a worker
+    worker_call/1,              % Goal: call it once in a worker
+    prolog:error_message//1.
 
 :- dynamic
     loaded/1,                   % Part
@@ -115,7 +120,11 @@ is_later(File) :-
     \+ source_location(_, _),           % as a part of another file
     \+ source_file(File),
     file_name_extension(File, pl, Path),
-    \+ source_file(Path).
+    \+ source_file(Path),
+    (   left_out(Path, Part)
+    ->  existence_error(typhon_part, Part)
+    ;   true
+    ).
 
 %   Settings of parts that are not loaded can be set.
 
@@ -138,6 +147,78 @@ path(File, Path) :-
 
 on_demand_later(Goal) :-
     worker_call(Goal).
+
+                /*******************************
+                *        PARTS LEFT OUT        *
+                *******************************/
+
+%   left_out(+Path, -Part) is semidet: the file at Path, with its extension, is
+%   not there.  Part is the library, or the name of the topmost folder, that is
+%   incomplete without it.
+
+left_out(Path, Part) :-
+    \+ exists_file(Path),
+    topmost_missing(Path, Missing),
+    file_base_name(Missing, Base),
+    file_name_extension(Name, _, Base),
+    (   library_of(Name, Library)
+    ->  Part = library(Library)
+    ;   Part = Name
+    ).
+
+library_of(Name, Library) :-
+    directory(Typhon),
+    file_directory_name(Typhon, Directory),
+    member(Library, [typhon/Name, Name]),
+    format(atom(File), '~w/~w.pl', [Directory, Library]),
+    exists_file(File),
+    !.
+
+topmost_missing(Path, Missing) :-
+    file_directory_name(Path, Dir),
+    (   exists_directory(Dir)
+    ->  Missing = Path
+    ;   topmost_missing(Dir, Missing)
+    ).
+
+prolog:error_message(existence_error(typhon_part, Part)) -->
+    [ '~w is not part of this installation: install the full archive'-[Part] ].
+
+%   without_part(+Directive, -Terms) is semidet: Directive imports from a file
+%   that is left out.  Predicates that are declared by autoload/2 raise the
+%   error when they are called; a library of the part is not read further.
+
+:- public without_part/2.
+
+without_part(autoload(Spec, PIs), []) :-
+    imported_file(Spec, Path),
+    left_out(Path, Part),
+    findall((Head :- error:existence_error(typhon_part, Part)),
+            ( member(Name/Arity, PIs), functor(Head, Name, Arity) ),
+            Clauses),
+    compile_aux_clauses(Clauses).
+without_part(Import, [(:- print_message(error, Error)), end_of_file]) :-
+    Error = error(existence_error(typhon_part, Part), _),
+    compound(Import),
+    compound_name_arguments(Import, Name, [Spec|_]),
+    memberchk(Name, [reexport, use_module]),
+    prolog_load_context(directory, Directory),
+    directory(Typhon),
+    ( Directory == Typhon ; file_directory_name(Typhon, Directory) ),
+    !,
+    imported_file(Spec, Path),
+    left_out(Path, Part).
+
+imported_file(Spec, Path) :-
+    Spec \= library(_),
+    prolog_load_context(source, Source),
+    own_file(Source),
+    file_directory_name(Source, Dir),
+    absolute_file_name(Spec, File, [relative_to(Dir)]),
+    file_name_extension(File, pl, Path).
+
+system:term_expansion((:- Directive), Terms) :-
+    typhon_on_demand:without_part(Directive, Terms).
 
                 /*******************************
                 *    HOOKS COME LAST IN FILES  *

@@ -19,8 +19,8 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module('../../kernel/base/private', [private_write/2]).
-:- use_module(postgresql, [postgresql_place/4, postgresql_url/1]).
-:- use_module(sql, [sql_connect/2, sql_do/2, sql_row/4]).
+:- autoload(postgresql, [postgresql_place/4]).
+:- use_module(sql, [postgresql_url/1, sql_connect/2, sql_do/2, sql_row/4]).
 
 /** <module> Databases for a journal
 

@@ -1,6 +1,5 @@
 :- module(typhon_postgresql,
-          [ postgresql_url/1,           % +Text
-            postgresql_place/4          % +Url, +Part, -Place, -Server
+          [ postgresql_place/4          % +Url, +Part, -Place, -Server
           ]).
 :- use_module(library(apply), [foldl/4]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
@@ -11,8 +10,8 @@
               [ uri_authority_components/2, uri_components/2, uri_encoded/3,
                 uri_query_components/2 ]).
 :- use_module(sql,
-              [ sql_connect/2, sql_disconnect/1, sql_do/2, sql_load/0,
-                sql_row/4 ]).
+              [ postgresql_url/1, sql_connect/2, sql_disconnect/1, sql_do/2,
+                sql_load/0, sql_row/4 ]).
 
 /** <module> A journal in PostgreSQL: a schema of a database
 
@@ -48,15 +47,6 @@ environment applies, such as PGPASSWORD, or the defaults of the server.
                 /*******************************
                 *             URLS             *
                 *******************************/
-
-%!  postgresql_url(+Text) is semidet.
-%
-%   Text is the URL of a PostgreSQL database.
-
-postgresql_url(Text) :-
-    member(Scheme, ['postgresql://', 'postgres://']),
-    sub_atom(Text, 0, _, _, Scheme),
-    !.
 
 %!  postgresql_place(+Url, +Part, -Place, -Server) is det.
 %

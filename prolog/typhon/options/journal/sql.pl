@@ -1,5 +1,6 @@
 :- module(typhon_sql,
-          [ sql_load/0,
+          [ postgresql_url/1,           % +Text
+            sql_load/0,
             sql_connect/2,              % +Driver, -Connection
             sql_disconnect/1,           % +Connection
             sql_do/2,                   % +Connection, +Sql
@@ -12,7 +13,7 @@
           ]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(error), [existence_error/2]).
-:- use_module(library(lists), [append/3]).
+:- use_module(library(lists), [append/3, member/2]).
 
 /** <module> SQL statements through library(odbc)
 
@@ -26,6 +27,15 @@ padded.
 :- dynamic
     connection/1,                       % Connection
     statement/3.                        % Name, Size, Statement
+
+%!  postgresql_url(+Text) is semidet.
+%
+%   Text is the URL of a PostgreSQL database.
+
+postgresql_url(Text) :-
+    member(Scheme, ['postgresql://', 'postgres://']),
+    sub_atom(Text, 0, _, _, Scheme),
+    !.
 
 %!  sql_load is det.
 %

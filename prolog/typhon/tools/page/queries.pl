@@ -23,7 +23,7 @@
 :- use_module(protocol,
               [ agent_summary_dict/2, name_text/2, page_time/2, place_text/2,
                 scene_dict/3, text/2 ]).
-:- use_module(replay, [replay_of_text/3]).
+:- autoload(replay, [replay_of_text/3]).
 :- use_module(editor, [name_in/3, on_console/1, text_in/3]).
 :- use_module(sources, [sources_look/1, sources_show/1, sources_tree/1]).
 

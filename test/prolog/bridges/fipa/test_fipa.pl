@@ -7,7 +7,7 @@
 :- use_module('../../../lib/fipa_agents').
 :- use_module('../../../lib/fixtures').
 :- use_module('../../../lib/peers').
-:- use_module('../../../../app/typhon/diagnose_fipa').
+:- use_module('../../../../app/typhon/fipa/diagnose').
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(lists), [member/2]).

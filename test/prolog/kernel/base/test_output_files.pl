@@ -2,6 +2,7 @@
 
 % All that writes a file leaves alone what is another thing than its output.
 
+:- use_module('../../../../app/packaging/parts', [installed/1]).
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/texts').
 :- use_module('../../../lib/fixtures').
@@ -47,7 +48,8 @@ test(options_of_a_running_host_as_well,
 writes(log, logged).
 writes(network_log, network_logged).
 writes(audit, audited).
-writes(page, paged).
+writes(page, paged) :-
+    installed(replay).
 writes(picture, pictured).
 writes(saved_network, saved).
 writes(restore_point, restored).

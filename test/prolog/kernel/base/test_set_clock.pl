@@ -39,7 +39,7 @@ results(Environment, Step, Scenarios, Results) :-
 %   Python, of which one has too short a timeout.
 
 waits([done-in_time,done-in_time,timeout-in_time,done-in_time|Naps]) :-
-    (   missing([python3], [])
+    (   python_waits
     ->  Naps = [1-in_time,timeout_error-in_time]
     ;   Naps = []
     ).

@@ -1,4 +1,5 @@
 :- module(test_children, []).
+:- use_module('../../../../app/packaging/parts', [installed/1]).
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/fixtures').
 :- use_module('../../../lib/peers').
@@ -64,7 +65,8 @@ test(child_of_clauses, [ forall(( Specs = [alpha] ; guarded(Specs) )),
          [ (main :- create(Child, C, []), send(C, hello),
                     receive(C-hi(Id1)), result(Id1)) ],
          Id).
-test(child_of_a_file, true(sub_atom(C, 0, _, _, 'alone.'))) :-
+test(child_of_a_file,
+     [ condition(installed(studies)), true(sub_atom(C, 0, _, _, 'alone.')) ]) :-
     made([alpha],
          [ (main :- create(agents(robots/alone), C0, []), result(C0)) ],
          C).

@@ -1,4 +1,5 @@
 :- module(test_cell_forgeries, []).
+:- use_module('../../../../app/packaging/parts', [installed/1]).
 :- use_module('../../../lib/common').
 :- needs([cells]).
 :- use_module('../../../lib/cell_inmate').
@@ -90,7 +91,8 @@ request('a recipient that is none', send("x", hello),
 request('a payload that is not attached', detach(x),
         raised(permission_error(call, sandboxed, _))).
 request('a strategy that is none', next_host(halt, _),
-        raised(domain_error(migration_strategy, _))).
+        raised(domain_error(migration_strategy, _))) :-
+    installed(migration).
 request('a fact that calls', sense(user:halt), solutions([])).
 request('an id of its own', create(clauses([(:- agent(x, [])), main]),
                                    'root.0@c@127.0.0.1:1', []),

@@ -1,4 +1,5 @@
 :- module(test_overlays, []).
+:- use_module('../../../../app/packaging/parts', [installed/1]).
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/texts', [write_file/2]).
 :- use_module('../../../lib/fixtures').
@@ -105,7 +106,7 @@ test(variables_of_agents, Rows == []) :-
     shown(log(_), Rows).
 test(variables_in_values, Rows == [["show", "reserved", "b@h:2", "_"]]) :-
     shown(log(reserved('b@h:2', _)), Rows).
-test(overlay_of_agents) :-
+test(overlay_of_agents, condition(installed(studies))) :-
     with_hosts([alpha],
                with_page([], Base,
                          with_feed(Base, Feed, frame(Feed, First)))),

@@ -2,6 +2,7 @@
 
 % The messages and orders of a page, and their authorization.
 
+:- use_module('../../../../app/packaging/parts', [installed/1]).
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/fixtures').
 :- use_module('../../../lib/pages').
@@ -410,7 +411,7 @@ test(no_such_host_or_agent) :-
                  fails(Base, _{what:"ask"}, []),
                  fails(Base, _{ask:1}, []) )).
 
-test(mechanisms) :-
+test(mechanisms, condition(installed(studies))) :-
     page(Base, answer(Base, _{ask:"mechanisms"}, All)),
     member(Mechanism, All),
     Mechanism.name == "sync",
@@ -423,7 +424,7 @@ test(mechanisms) :-
                                       ["-","Agents"]]),
     assertion(sub_string(Predicate.about, _, _, _, "delta")).
 
-test(programs) :-
+test(programs, condition(installed(studies))) :-
     page(Base, answer(Base, _{ask:"programs"}, Names)),
     assertion(memberchk("agents(sync/traveller)", Names)),
     assertion(\+ ( member(Name, Names), sub_string(Name, _, _, _, operator) )).
@@ -489,7 +490,9 @@ test(metrics, Said == "") :-
 %   A browser sends the text of a log file; of the overlays in agents/ those
 %   are listed that its events change.
 
-test(log_of_a_browser, Names == ["clones", "task executed"]) :-
+test(log_of_a_browser,
+     [ condition(( installed(replay), installed(studies) )),
+       Names == ["clones", "task executed"] ]) :-
     findall(Line,
             ( member(What, [ created, cloned, executing(1, drill), deaths,
                              leave(deaths) ]),
@@ -506,7 +509,8 @@ test(log_of_a_browser, Names == ["clones", "task executed"]) :-
 
 %   Events of hosts and links keep their kinds, and others are logs.
 
-test(kinds_of_events_of_a_log, Kinds == Expected) :-
+test(kinds_of_events_of_a_log,
+     [condition(installed(replay)), Kinds == Expected]) :-
     findall(What-Kind, logged_kind(What, Kind), Pairs),
     pairs_keys_values(Pairs, Events, Expected),
     findall(Line, ( nth1(N, Events, What),
@@ -665,7 +669,7 @@ test(networks) :-
                  done(Base, _{do:"network_stop", network:Name}, _),
                  answer(Base, _{ask:"networks"}, []) )).
 
-test(mechanism, Done == ["[]"]) :-
+test(mechanism, [condition(installed(studies)), Done == ["[]"]]) :-
     page(Base, ( findall(A, host_property(_, address(A)), Hosts),
                  done(Base, _{ do:"mechanism", mechanism:"sync",
                                predicate:"sequence_start",
@@ -923,7 +927,7 @@ elsewhere(Out, Pid, Names) :-
 
 %   make demo-page: sixty hosts at work, until Ctrl-C.
 
-test(demo, Count-Status == 4-exit(0)) :-
+test(demo, [condition(installed(studies)), Count-Status == 4-exit(0)]) :-
     project_file('app/demo_page.pl', Demo),
     with_swipl([Demo, '--', '--port=0'], Pid, _, Out,
                ( read_line_to_string(Out, Link),
@@ -935,7 +939,8 @@ test(demo, Count-Status == 4-exit(0)) :-
                  process_kill(Pid, int),
                  wait_for_end(Pid, 20, Status) )).
 
-test(demo_at_a_port_in_use, Lines-Out-Status == 1-""-exit(1)) :-
+test(demo_at_a_port_in_use,
+     [condition(installed(studies)), Lines-Out-Status == 1-""-exit(1)]) :-
     project_file('app/demo_page.pl', Demo),
     tcp_socket(Socket),
     tcp_bind(Socket, localhost:Port),

@@ -12,10 +12,10 @@ brick, and stops with advice at the step that fails.  Nothing moves.
 
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [memberchk/2]).
-:- use_module('../../prolog/typhon/kernel/base/monotonic', [monotonic_time/1]).
-:- use_module('../../prolog/typhon/nxt').
-:- use_module('../../prolog/typhon/bridges/nxt/link', [nxt_python/2]).
-:- use_module(diagnose, [diagnose_steps/2, python_says/4]).
+:- use_module('../../../prolog/typhon/kernel/base/monotonic', [monotonic_time/1]).
+:- use_module('../../../prolog/typhon/nxt').
+:- use_module('../../../prolog/typhon/bridges/nxt/link', [nxt_python/2]).
+:- use_module('../diagnose', [diagnose_steps/2, python_says/4]).
 
 %!  diagnose_nxt(+Port) is semidet.
 %

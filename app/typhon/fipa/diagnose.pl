@@ -10,11 +10,11 @@ Tests the steps from the URL of the platform to an accepted message.
 */
 
 :- use_module(library(socket), [tcp_connect/3]).
-:- use_module('../../prolog/typhon/bridges/fipa/acl', [acl_text/2]).
-:- use_module('../../prolog/typhon/bridges/fipa/http',
+:- use_module('../../../prolog/typhon/bridges/fipa/acl', [acl_text/2]).
+:- use_module('../../../prolog/typhon/bridges/fipa/http',
               [http_post/4, http_response/3, http_url/3]).
-:- use_module('../../prolog/typhon/bridges/fipa/letter', [letter_write/5]).
-:- use_module(diagnose, [diagnose_steps/2]).
+:- use_module('../../../prolog/typhon/bridges/fipa/letter', [letter_write/5]).
+:- use_module('../diagnose', [diagnose_steps/2]).
 
 deadline(5).                            % seconds without an answer
 

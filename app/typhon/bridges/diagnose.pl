@@ -10,13 +10,13 @@ advice at the step that fails.
 *Threading*: the calling thread.
 */
 
-:- use_module('../../prolog/typhon/kernel/base/monotonic', [monotonic_time/1]).
-:- use_module('../../prolog/typhon',
+:- use_module('../../../prolog/typhon/kernel/base/monotonic', [monotonic_time/1]).
+:- use_module('../../../prolog/typhon',
               [ host_start/1, host_stop/1, mqtt_start/3, python_start/3,
                 remote/2, ros_start/3 ]).
-:- use_module('../../prolog/typhon/bridges/helper', [helper_file/2, helper_python/2]).
-:- use_module('../../prolog/typhon/bridges/ros/connection', [node_python/2]).
-:- use_module(diagnose, [diagnose_steps/2, python_says/4]).
+:- use_module('../../../prolog/typhon/bridges/helper', [helper_file/2, helper_python/2]).
+:- use_module('../../../prolog/typhon/bridges/ros/connection', [node_python/2]).
+:- use_module('../diagnose', [diagnose_steps/2, python_says/4]).
 
 %!  diagnose_bridge(+Bridge, +Arguments:list) is semidet.
 %
