@@ -19,8 +19,11 @@ PART ?= all
 DOCUMENTS ?=
 TOUCHED ?=
 MAKEFLAGS += --no-print-directory
-ENTRY_POINTS = prolog/typhon.pl app/typhon.pl test/run.pl \
-    experiments/study.pl bench/run.pl
+ENTRY_POINTS = $(wildcard prolog/typhon.pl app/typhon.pl test/run.pl \
+    experiments/study.pl bench/run.pl)
+# Of a target whose files the small archive lacks.
+NEEDS = @[ -e $(1) ] || { echo "make $@: $(1) is not part of this" \
+    "installation: install the full archive" >&2; exit 2; }
 # check/0 without the options of predicates: for read_term/3, 9.2.9 has
 # the types wrong.
 CHECKS = list_undefined, list_trivial_fails, list_format_errors, \
@@ -47,23 +50,29 @@ help:
 	fi
 
 demo: tools             ## sixty hosts, ten agents, six tasks in step
+	$(call NEEDS,experiments)
 	@$(SWIPL) experiments/study.pl -- demo --runs 1 --real --logs \
 	    --out out/demo
 
 demo-robots: tools      ## simulated robots carry a pole, and push boxes
+	$(call NEEDS,experiments)
 	@$(SWIPL) experiments/study.pl -- pole boxes --runs 1 --out out/robots
 
 demo-ros: tools tools-ros       ## agents drive robots of ROS 2, simulated
+	$(call NEEDS,app/demo_ros.pl)
 	@$(SWIPL) -q app/demo_ros.pl
 
 demo-page: tools page-tools     ## sixty hosts, in a browser; PORT=8080
+	$(call NEEDS,app/demo_page.pl)
 	@$(SWIPL) app/demo_page.pl $(if $(PORT),-- --port=$(PORT))
 
 thesis: tools page-tools ## every figure of the thesis anew; RUNS=10, JOBS=2
+	$(call NEEDS,experiments)
 	@$(SWIPL) experiments/study.pl -- thesis --runs $(RUNS) \
 	    --jobs $(JOBS) --replays --out out/thesis
 
 thesis-real: tools      ## one case of each chapter, over sockets as well
+	$(call NEEDS,experiments)
 	@$(SWIPL) experiments/study.pl -- thesis --real --runs $(RUNS) \
 	    --jobs $(JOBS) --out out/thesis
 
@@ -97,8 +106,10 @@ check:                  ## a quick look for mistakes, offline
 	fi
 
 check-all:
+ifneq ($(wildcard doc/layers.pl),)
 	@$(SWIPL) -q --on-error=status doc/layers.pl -- check
 	@$(SWIPL) -q --on-error=status -g check_promises -t halt test/promises.pl
+endif
 	@for file in $(ENTRY_POINTS); do \
 	    $(SWIPL) -q --on-error=status --on-warning=status \
 	        -g '$(CHECKS)' -t halt -l $$file || exit 1; \
@@ -119,6 +130,7 @@ hostile:                ## hostile agents on a guarded host; COUNT=100000, SEED=
 # COUNT is 300 here, and the time not bounded, if they are not given.
 GIVEN = $(filter command,$(firstword $(origin $(1))))
 mutants: tools          ## take something away, look whether a test fails; COUNT, SEED, PART
+	$(call NEEDS,test/mutants)
 	@$(SWIPL) test/mutants/run.pl -- --seed $(SEED) --part $(PART) \
 	    --count $(if $(call GIVEN,COUNT),$(COUNT),300) \
 	    $(if $(call GIVEN,SECONDS),--seconds $(SECONDS)) \
@@ -126,6 +138,7 @@ mutants: tools          ## take something away, look whether a test fails; COUNT
 	    $(if $(TOUCHED),--touched $(TOUCHED))
 
 pictures: tools page-tools ## make all pictures of README and doc; KINDS=page
+	$(call NEEDS,doc/pictures.pl)
 	@.ci/install page
 	@RUNS=$(RUNS) $(SWIPL) doc/pictures.pl -- doc/img $(KINDS)
 
@@ -139,19 +152,23 @@ doc: tools              ## the documents as a site, in out/doc
 	@rm -rf out/doc
 	@$(SWIPL) doc/site.pl -- out/doc
 
-release:                ## the archive of a release; URL=https://... of its home
+release:                ## the archives of a release, full and small; URL=https://... of its home
 	@app/packaging/release out/release "$(URL)"
 
 bench: tools            ## measure; one line per figure
+	$(call NEEDS,bench)
 	@$(SWIPL) bench/run.pl -- --out out/bench
 
 bench-peers: tools      ## compare with Erlang, JADE, SPADE, Pekko, Mesa, if there
+	$(call NEEDS,bench)
 	@$(SWIPL) bench/run.pl -- --out out/bench-peers peers
 
 profile: tools          ## which module takes how long of a hop
+	$(call NEEDS,bench)
 	@$(SWIPL) bench/profile.pl
 
 test-portability:       ## the suites on other Prologs (root); SWIPL=one more
+	$(call NEEDS,test/portability)
 	@SWIPL='$(SWIPL)' test/portability/run
 
 clean:                  ## remove what runs have left in out/
@@ -169,10 +186,12 @@ PEER_JARS = for name in jade pekko; do \
 	done
 
 tools-peers:            ## install what `make bench-peers` compares with
+	$(call NEEDS,bench)
 	@.ci/install peers
 	@$(PEER_JARS)
 
 tools-ros:              ## install ROS 2 from PyPI for library(typhon/ros)
+	$(call NEEDS,.ci/ros-tools)
 	@.ci/ros-tools
 
 tools-all:              ## install all that .ci/packages lists, JADE and Pekko

@@ -12,6 +12,7 @@ Says which links are broken, and fails if any are.
 *Threading*: the main thread.
 */
 
+:- use_module('../app/packaging/parts', [left_out/2]).
 :- use_module('../app/typhon/arguments', [arguments/3]).
 :- use_module(site/reference).          % first, see there
 :- use_module(site/documents, [document/2]).
@@ -20,7 +21,7 @@ Says which links are broken, and fails if any are.
               [ copy_file/2, delete_directory_and_contents/1,
                 directory_file_path/3, make_directory_path/1,
                 relative_file_name/3 ]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [last/2, member/2]).
 :- use_module(library(main), [main/0]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
@@ -76,7 +77,7 @@ sources(Work) :-
     settings(Work, Docs).
 
 page(Docs, Public, File) :-
-    read_file_to_string(File, Text, [encoding(utf8)]),
+    document_text(File, Text),
     page(Docs, Public, File, Text).
 
 page(Docs, Public, File, Text) :-
@@ -87,7 +88,7 @@ page(Docs, Public, File, Text) :-
 
 along(Files, Path) :-
     member(File, Files),
-    read_file_to_string(File, Text, [encoding(utf8)]),
+    document_text(File, Text),
     link_target(Text, Target),
     beside(File, Target, Path),
     exists_file(Path),
@@ -98,6 +99,32 @@ beside(File, Target, Path) :-
     directory_file_path(Dir, Target, Relative),
     absolute_file_name(Relative, Absolute),
     relative_file_name(Absolute, 'README.md', Path).
+
+%   document_text(+File, -Text): links to files that are left out are text only.
+
+document_text(File, Text) :-
+    read_file_to_string(File, Text0, [encoding(utf8)]),
+    without_links(File, Text0, Text).
+
+without_links(File, Text0, Text) :-
+    link_target(Text0, Target),
+    atomic_list_concat([Page|_], #, Target),
+    beside(File, Page, Path),
+    left_out(Path, _),
+    !,
+    format(string(End), "](~w)", [Target]),
+    once(sub_string(Text0, Length, _, After, End)),
+    sub_string(Text0, 0, Length, _, Before),
+    findall(At, sub_string(Before, At, 1, _, "["), Ats),
+    last(Ats, Begin),
+    sub_string(Before, 0, Begin, _, Start),
+    Word is Begin+1,
+    sub_string(Before, Word, _, 0, Words),
+    sub_string(Text0, _, After, 0, Rest),
+    string_concat(Start, Words, Linked),
+    string_concat(Linked, Rest, Text1),
+    without_links(File, Text1, Text).
+without_links(_, Text, Text).
 
 come_along(Docs, _, Path) :-
     file_name_extension(_, Extension, Path),
@@ -142,7 +169,7 @@ settings(Work, Docs) :-
 
 group(_{'Start':['README.md', 'doc/contents.md']}).
 group(Group) :-
-    read_file_to_string('doc/contents.md', Text, [encoding(utf8)]),
+    document_text('doc/contents.md', Text),
     headed(Text, '\n## ', Heading, Section),
     findall(Part-Pages,
             ( headed(Section, '\n### ', Part, Listed),

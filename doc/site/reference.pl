@@ -11,6 +11,7 @@ share a comment share an entry.
 so this module is loaded before any other that loads library(typhon).
 */
 
+:- use_module('../../app/packaging/parts', [installed/1, part/3]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(http/html_write), [print_html/1]).
 :- use_module(library(lists), [append/2, append/3, member/2]).
@@ -25,16 +26,20 @@ so this module is loaded before any other that loads library(typhon).
 :- use_module('../../prolog/typhon', []).
 :- use_module('../../prolog/typhon/kernel/program', [vocabulary_word/2]).
 :- use_module('../../prolog/typhon/network/networks', []).  % else on demand
-:- use_module('../../prolog/typhon/nxt', []).
-:- use_module('../../prolog/typhon/fipa', []).
-:- use_module('../../prolog/typhon/bridges/mqtt/service', []).
-:- use_module('../../prolog/typhon/bridges/ros/service', []).
-:- use_module('../../agents/sync/operator', []).
-:- use_module('../../agents/population/operator', []).
-:- use_module('../../agents/learning/operator', []).
-:- use_module('../../agents/allocation/operator', []).
-:- use_module('../../agents/sieve/operator', []).
-:- use_module('../../agents/hierarchy/operator', []).
+:- forall(( member(Part-Files,
+                   [ nxt-['prolog/typhon/nxt'],
+                     fipa-['prolog/typhon/fipa'],
+                     bridges-['prolog/typhon/bridges/mqtt/service',
+                              'prolog/typhon/bridges/ros/service'],
+                     studies-['agents/sync/operator',
+                              'agents/population/operator',
+                              'agents/learning/operator',
+                              'agents/allocation/operator',
+                              'agents/sieve/operator',
+                              'agents/hierarchy/operator'] ]),
+            installed(Part),
+            member(File, Files) ),
+          use_module('../..'/File, [])).
 :- doc_collect(false).
 
                 /*******************************
@@ -117,6 +122,7 @@ public(agents, Module:PI) :-
     vocabulary_word(Module, PI),
     PI \== message_failed/2.            % is for the machine
 public(bridges, typhon_mqtt_service:PI) :-
+    installed(bridges),
     member(PI, [publish/2, publish/3, subscribe/1, subscribe/2, unsubscribe/1]).
 public(bridges, PI) :-
     exported(typhon_ros_service, PI).
