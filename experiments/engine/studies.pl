@@ -193,6 +193,9 @@ problem(Study, _, said(plot(Name), wrong(Formal))) :-
 problem(Study, _, said(Where, unknown(Name))) :-
     study_name(Study, Where, Name),
     unknown(Study, Name).
+problem(Study, _, said(Where, no_parameter(Name))) :-
+    condition(Study, Where, Name),
+    \+ study_parameter(Study, Name).
 problem(Study, _, said(claim(Text), no_case(Name=Value))) :-
     study_call(Study, claim(Text, _, Test)),
     claim_value(Study:Test, Name=Value),
@@ -201,6 +204,19 @@ problem(Study, _, said(claim(Text), no_case(Name=Value))) :-
     memberchk(parameter(Name, Values, varied), Parameters),
     is_list(Values),
     \+ memberchk(Value, Values).
+
+%   condition(+Study, -Where, -Name) is nondet: a condition Name=Value in Where, a
+%   claim or a printed value.
+
+condition(Study, claim(Text), Name) :-
+    study_call(Study, claim(Text, _, Test)),
+    claim_value(Study:Test, Name=_).
+condition(Study, printed(Measure), Name) :-
+    clause(Study:printed(Measure, Conditions, _), _),
+    is_list(Conditions),
+    member(Condition, Conditions),
+    nonvar(Condition),
+    ( Condition = (Name=_) -> nonvar(Name) ; Name = Condition ).
 
 %!  study_name(+Study, -Where, -Name) is nondet.
 %
@@ -303,6 +319,8 @@ says(no_picture(Part)) -->
     [ '~q is not a picture'-[Part] ].
 says(wrong(Formal)) -->
     '$messages':translate_message(error(Formal, _)).
+says(no_parameter(Name)) -->
+    [ '~q is not a parameter'-[Name] ].
 says(no_case(Name=Value)) -->
     [ 'no case has ~q=~q'-[Name, Value] ].
 says(unknown(Name)) -->

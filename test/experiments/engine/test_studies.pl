@@ -46,6 +46,15 @@ problems(unknown_in_a_claim, ['claim("small", [], n < a).'],
 problems(unknown_value, [ 'vary(k, [grid, ring]).',
                           'claim("small", [], least(m, k=gird)).' ],
          [said(claim("small"), no_case(k=gird))]).
+problems(condition_of_a_claim,
+         [ 'measure(Name, _, 2) :- member(Name, [n, o]).',
+           'claim("small", [], at([1=a], m < 2)).' ],
+         [said(claim("small"), no_parameter(1))]).
+problems(condition_of_a_printed_value,
+         ['printed(m, [a=1], 3).', 'printed(m, [b=1], 3).',
+          'printed(m, [1=a], 3).', 'printed(m, [], 3).'],
+         [ said(printed(m), no_parameter(b)), said(printed(m), no_parameter(1))
+         ]).
 problems(unknown_in_a_plot,
          ['plot(p, "P", lines([x(b), y([m, n]), line(a)])).'],
          [said(plot(p), unknown(b)), said(plot(p), unknown(n))]).
