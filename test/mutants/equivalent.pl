@@ -44,11 +44,27 @@ equivalent_change(Change, Reason) :-
     equivalent(File, Predicate, Kind, _, _, _),
     change_words(Change, Old, New),
     equivalent(File, Predicate, Kind, Old, New, Reason).
+equivalent_change(Change, "declarations of a study, which are found by name") :-
+    Change = change(File, _, _, _, order, Predicate, _),
+    of_study(File),
+    memberchk(Predicate, [fixed/3, label/2]).
+equivalent_change(Change, "a value that a study assumes, and reports") :-
+    Change = change(File, Start, _, _, bound, fixed/3, _),
+    of_study(File),
+    project_file(File, Path),
+    read_file_to_string(Path, Text, [encoding(utf8)]),
+    sub_string(Text, Start, _, 0, After),
+    once(sub_string(After, Length, _, _, ").\n")),
+    sub_string(After, 0, Length, _, Rest),
+    once(sub_string(Rest, _, _, _, "assumed(")).
 equivalent_change(Change, "a searched list in another order") :-
     Change = change(File, Start, _, _, constants, _, _),
     change_words(Change, Old, _),
     text_before(File, Start, Before),
     searched_list(Before, Old).
+
+of_study(File) :-
+    sub_atom(File, 0, _, _, 'experiments/').
 
 text_before(File, Start, Before) :-
     project_file(File, Path),

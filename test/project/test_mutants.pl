@@ -1,6 +1,6 @@
 :- module(test_mutants_suite, []).
 :- use_module('../lib/common').
-:- use_module('../lib/texts', [write_file/2]).
+:- use_module('../lib/texts', [file_lines/2, write_file/2]).
 :- use_module('../mutants/changes').
 :- use_module('../mutants/copies', [suite_in_copy/4]).
 :- use_module('../mutants/equivalent',
@@ -9,7 +9,7 @@
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
-:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(lists), [member/2, memberchk/2, nth1/3]).
 :- use_module(library(plunit)).
 
 /** <module> Changes that take a promise away, and the table of promises
@@ -166,6 +166,29 @@ test(order_of_a_list_that_is_searched_is_equivalent, Lines == [4,5,6,7,8,9]) :-
                           Change = change(_, _, _, _, constants, _, Line),
                           \+ equivalent_change(Change, _) ), Lines0),
           sort(Lines0, Lines) )).
+test(assumed_values_and_orders_of_declarations_of_studies_are_equivalent,
+     Kinds == [ assumed-equivalent, order-equivalent, printed-tried ]) :-
+    findall(Kind-Verdict,
+            ( member(File, [ 'experiments/robots/study_pole.pl',
+                             'experiments/hierarchy/beyond_lead.pl' ]),
+              project_file(File, Path),
+              file_changes(Path, Changes),
+              member(change(_, S, E, New, Kind0, fixed/3, Line), Changes),
+              fixed_kind(Kind0, Path, Line, Kind),
+              (   equivalent_change(change(File, S, E, New, Kind0, fixed/3,
+                                           Line), _)
+              ->  Verdict = equivalent
+              ;   Verdict = tried
+              ) ),
+            Kinds0),
+    sort(Kinds0, Kinds).
+
+fixed_kind(order, _, _, order).
+fixed_kind(bound, Path, Line, Kind) :-
+    file_lines(Path, Lines),
+    nth1(Line, Lines, Text),
+    member(Kind, [assumed, printed]),
+    once(sub_string(Text, _, _, _, Kind)).
 
 :- end_tests(mutants).
 

@@ -106,6 +106,8 @@ named(Names, Bases) :-
 
 :- begin_tests(catalogue).
 
+test(each_study_of_the_project_is_valid, Text == "") :-
+    study_messages(catalogue(_), Text).
 test(names, true(memberchk(['5.6', _], Rows))) :-
     catalogue(Rows).
 test(names_are_unique, Names == Sorted) :-
