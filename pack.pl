@@ -1,7 +1,7 @@
 % `make release URL=...` adds home/1, download/1 and packager/2.
 pack_version(2).
 name(typhon).
-version('0.2.0').
+version('0.3.0').
 title('Mobile agents that travel in the middle of a clause').
 description([ 'A mobile-agent platform: agents are Prolog programs that stop in',
               'the middle of a clause, travel to another process or machine',

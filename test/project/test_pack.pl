@@ -85,9 +85,11 @@ make_program(Dir, Folder, Name) :-
 
 archive(Create, Archive) :-
     project_file('.', Root),
+    named(typhon, '', Name),
+    format(atom(Transform), 's,^\\.,~w,', [Name]),
     process_create(path(tar),
                    [ '--exclude=./.git', '--exclude=./out',
-                     '--transform', 's,^\\.,typhon-0.2.0,',
+                     '--transform', Transform,
                      Create, Archive, '-C', Root, '.'
                    ], []).
 
@@ -98,7 +100,16 @@ copied(Home, Root) :-
     directory_file_path(Home, 'typhon.tar', Archive),
     archive('-cf', Archive),
     process_create(path(tar), ['-xf', Archive, '-C', Home], []),
-    directory_file_path(Home, 'typhon-0.2.0', Root).
+    named(typhon, '', Name),
+    directory_file_path(Home, Name, Root).
+
+%   named(+Kind, +Extension, -Name): the name of an archive of this version.
+
+named(Kind, Extension, Name) :-
+    project_file('pack.pl', File),
+    read_file_to_terms(File, Terms, []),
+    memberchk(version(Version), Terms),
+    atomic_list_concat([Kind, -, Version, Extension], Name).
 
 :- begin_tests(pack).
 
@@ -115,7 +126,8 @@ test(directory_url) :-
           works(Home) )).
 test(archive_url) :-
     with_tmp_dir(Home,
-        ( directory_file_path(Home, 'typhon-0.2.0.tgz', Archive),
+        ( named(typhon, '.tgz', Name),
+          directory_file_path(Home, Name, Archive),
           archive('-czf', Archive),
           atom_concat('file://', Archive, URL),
           install(typhon, [url(URL)], Home, Home),
@@ -165,14 +177,15 @@ a_clone :-
 
 released(Sums, Dir) :-
     copied(Dir, Root),
+    named(typhon, '.tgz', Name),
     format(atom(Script),
            "cd ~w && git init -q && git add -A && \c
             git -c user.name=t -c user.email=t commit -qm t && \c
             app/packaging/release ../out https://example.org/typhon && \c
-            tar -xOzf ../out/typhon-0.2.0.tgz --wildcards '*/pack.pl' | \c
+            tar -xOzf ../out/~w --wildcards '*/pack.pl' | \c
             grep -q '^home(' && sleep 1.1 && git clone -q . ../again && \c
             ../again/app/packaging/release ../other https://example.org/typhon",
-           [Root]),
+           [Root, Name]),
     process_create(path(sh), ['-c', Script],
                    [stdout(pipe(Out)), process(Pid)]),
     read_string(Out, _, Text),
@@ -184,9 +197,10 @@ released(Sums, Dir) :-
 %   The small archive, unpacked, is installed with all that it has.
 
 small_works(Home) :-
-    process_create(path(tar), ['-xzf', 'out/typhon-core-0.2.0.tgz'],
-                   [cwd(Home)]),
-    directory_file_path(Home, 'typhon-core-0.2.0', Root),
+    named('typhon-core', '', Name),
+    format(atom(Archive), 'out/~w.tgz', [Name]),
+    process_create(path(tar), ['-xzf', Archive], [cwd(Home)]),
+    directory_file_path(Home, Name, Root),
     atom_concat('file://', Root, URL),
     install(URL, [], Home, Home),
     assertion(compiled(Home)),
