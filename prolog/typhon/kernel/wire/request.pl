@@ -196,7 +196,7 @@ dispatch(Session, request(Id, Kind, Term)) :-
 dispatch(Session, hand(Kind, Term)) :-
     !,
     session_peer(Session, _, Peer),
-    (   allowed(Session, hand, Kind, Term, Peer, ok),
+    (   permitted(Session, hand, Kind, Term, Peer),
         attempt(typhon_endpoint:handed(Kind, Term, Peer, Verdict), Kind, fail)
     ->  verdict(Verdict, Kind, Term, Peer, Session)
     ;   session_object(Session, spoilt)
@@ -271,10 +271,14 @@ dispatch_request(Id, Kind, Term, Peer, Session) :-
     ).
 
 post_in(Session, Kind, Term, Peer) :-
-    (   allowed(Session, post, Kind, Term, Peer, ok)
+    (   permitted(Session, post, Kind, Term, Peer)
     ->  take_post(Kind, Term, Peer)
     ;   true
     ).
+
+permitted(Session, Form, Kind, Term, Peer) :-
+    allowed(Session, Form, Kind, Term, Peer, Verdict),
+    Verdict == ok.
 
 %   allowed(+Session, +Form, +Kind, +Term, +Peer, -Verdict): see kinds.pl. This
 %   process may send to itself what it likes.

@@ -127,6 +127,9 @@ wrong(malformed_agents,
 wrong(undeclared_terms,
       typhon_request:allowed(session(k, fast, w, o, p, i), request, bogus, x,
                              '1.2.3.4:1', _)).
+wrong(undeclared_terms,
+      typhon_request:post_in(session(k, fast, w, o, p, i), bogus, x,
+                             '1.2.3.4:1')).
 wrong(errors_of_hooks,
       typhon_session:call_hook(throw(error(system_error(x), _)))).
 wrong(unsent_requests,
