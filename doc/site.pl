@@ -180,6 +180,7 @@ group(Group) :-
     ;   findall(Item, ( member(Pair, Parts), dict_pairs(Item, _, [Pair]) ),
                 Items)
     ),
+    Items \== [],                       % else all pages are left out
     dict_pairs(Group, _, [Heading-Items]).
 group(_{'Predicates':['predicates.md']}).
 

@@ -202,7 +202,8 @@ section(Title, Files) :-
     findall(File,
             ( points_to(Section, Link),
               directory_file_path(Dir, Link, Path),
-              absolute_file_name(Path, File) ),
+              absolute_file_name(Path, File),
+              exists_file(File) ),      % else it is of a part that is left out
             Files).
 
 %   sections_of(-File, -Titles): of each document but README.md and the list.
