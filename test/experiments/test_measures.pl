@@ -8,10 +8,10 @@ example is expected, and each of its measures occurs in an example. For robots
 see test_pole and test_boxes.
 */
 
-:- use_module('../lib/common').
-:- use_module('../lib/project_studies', [log_measures/5, project_study/2]).
-:- use_module(library(apply), [maplist/3]).
-:- use_module(library(filesex), [directory_member/3]).
+:- use_module('../lib/common', []).
+:- use_module('../lib/project_studies',
+              [log_measures/5, project_study/2, study_names/1]).
+:- use_module(library(apply), [exclude/3, maplist/3]).
 :- use_module(library(lists),
               [append/2, append/3, member/2, memberchk/2, nth1/3,
                subtract/3]).
@@ -582,19 +582,11 @@ as_expected(Expected, Measure-Value) :-
 %   studies(-Names): all but those of robots.
 
 studies(Names) :-
-    project_file(experiments, Dir),
-    findall(Name,
-            ( directory_member(Dir, File, [recursive(true),
-                                           extensions([pl])]),
-              file_base_name(File, Base),
-              member(Start, [figure_, table_, beyond_, study_]),
-              sub_atom(Base, 0, _, _, Start),
-              project_file(Path, File),
-              atomic_list_concat([experiments, Folder|_], /, Path),
-              Folder \== robots,
-              file_name_extension(Stem, _, Base),
-              atomic_list_concat([Folder, Stem], /, Name) ),
-            Names).
+    study_names(All),
+    exclude(of_robots, All, Names).
+
+of_robots(Name) :-
+    file_directory_name(Name, robots).
 
 %   a_measure(+Name, -Measure): Measure is the name in a clause of measure/3.
 

@@ -1,5 +1,6 @@
 :- module(test_project_studies,
           [ project_study/2,            % +Name, -Study
+            study_names/1,              % -Names
             case_count/2,               % +Study, -Count
             invalid_claims/2,           % +Study, -Problems
             verdicts/3,                 % +Study, +Points, -Verdicts
@@ -17,6 +18,7 @@
 :- use_module('../../experiments/engine/store', [run_facts/2]).
 :- use_module('../../experiments/engine/studies',
               [study_call/2, study_load/2, study_says/2]).
+:- use_module(library(filesex), [directory_member/3]).
 :- use_module(library(lists), [member/2, nth1/3]).
 
 /** <module> The studies in experiments/: cases, claims, and small runs
@@ -32,6 +34,24 @@ project_study(Name, Study) :-
     atomic_list_concat(['experiments/', Name, '.pl'], Relative),
     project_file(Relative, File),
     study_load(File, Study).
+
+%!  study_names(-Names:list(atom)) is det.
+%
+%   Of all studies, as in `sync/figure_5_2`.
+
+study_names(Names) :-
+    project_file(experiments, Dir),
+    findall(Name,
+            ( directory_member(Dir, File, [ recursive(true),
+                                            extensions([pl]) ]),
+              file_base_name(File, Base),
+              member(Start, [figure_, table_, beyond_, study_]),
+              sub_atom(Base, 0, _, _, Start),
+              file_directory_name(File, Folder),
+              file_base_name(Folder, Chapter),
+              file_name_extension(Stem, _, Base),
+              atomic_list_concat([Chapter, Stem], /, Name) ),
+            Names).
 
 %!  case_count(+Study, -Count) is det.
 

@@ -6,7 +6,8 @@
 :- use_module('../../lib/study_files',
               [save_lines/3, study_messages/2, with_study_file/4]).
 :- use_module('../../../experiments/engine/cases', [study_cases/3]).
-:- use_module('../../../experiments/engine/gnuplot', [plain_text/2]).
+:- use_module('../../../experiments/engine/gnuplot',
+              [lighten/2, plain_text/2]).
 :- use_module('../../../experiments/engine/outcome', [outcome/4]).
 :- use_module('../../../experiments/engine/overview').
 :- use_module('../../../experiments/engine/page').
@@ -182,6 +183,13 @@ test(lines_are_not_joined_across_a_case_without_runs,
           text(Dir, 'one.dat', Text) )).
 test(texts_are_drawn_verbatim, Plain == 'a\\_b\\^2\\{\\\\') :-
     plain_text("a_b^2{\\", Plain).
+test(light_colour_is_a_quarter_as_far_from_white, Wrong == []) :-
+    findall(Colour,
+            ( member(Shift, [0, 8, 16]), between(0, 255, Part),
+              Colour is 0xffffff - ((255 - Part) << Shift),
+              Light is 0xffffff - ((255 - ceiling((Part + 3*255)/4)) << Shift),
+              \+ lighten(Colour, Light) ),
+            Wrong).
 test(impossible_plot_is_reported) :-
     with_pictures(_, Text, true),
     forall(member(Part, [ "Picture none is not drawn: there are no data",
