@@ -128,6 +128,13 @@ test(stacked, Rows == [[0, 1, 0], [0, 1, 1], [0, 2, 2], [3, 2, 0]]) :-
 
 :- end_tests(pole_metrics).
 
+%   about(+Row, +Wanted): rows of numbers, or atoms.
+
+about([], []).
+about([X|Xs], [Y|Ys]) :-
+    ( X == Y -> true ; abs(X - Y) < 1.0e-6 ),
+    about(Xs, Ys).
+
 :- begin_tests(pole_claims).
 
 test(well_formed, Problems == []) :-
@@ -146,6 +153,28 @@ test(bars) :-
     forall(member(Bar, [[1, 1, 0.0, 5.0, 1], [4, 2, 8.0, 16.0, 1]]),
            assertion(( member(Row, Ms.bars), maplist(=:=, Row, Bar) ))),
     assertion(length(Ms.bars, 16)).    % alone, no robot waits
+
+%   In step only the robots that have not begun yet require a task; alone none
+%   ever does.
+
+test(required_tasks) :-
+    points([_-InStep, _-Alone]),
+    assertion(maplist(about, InStep.taus,
+                      [ [0, 1], [0.6, 0], [5, 1], [27.6, 0], [32, 1],
+                        [54.6, 0], [59, 1], [81.6, 0] ])),
+    assertion(Alone.taus == [[0, 0], [32, 0]]).
+test(tables) :-
+    points([_-InStep, _-Alone]),
+    assertion(maplist(about, InStep.tilts,
+                      [ [0, 0], [0.5, 0], [1, 1], [1.5, 3], [2, 1],
+                        [2.5, 0] ])),
+    assertion(maplist(about, InStep.tasks,
+                      [ [1, 0, 8.6, 18.4], [2, 27, 35.6, 18.4],
+                        [3, 54, 62.6, 18.4], [4, 81, 89.6, none] ])),
+    assertion(append([[0, 1, 0], [0, 1, 1], [0, 1, 2], [0, 1, 3], [5, 2, 0]],
+                     _, Alone.starts)),
+    assertion(append(_, [[0, 1, 3], [27, 2, 0], [27, 2, 1]|_],
+                     InStep.starts)).
 test(all_hold, true(Numbers == All)) :-
     robot_study(pole, Study),
     points(Points),
