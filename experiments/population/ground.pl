@@ -43,7 +43,7 @@ run(Case, Network) :-
     findall(Name-Value,
             ( member(Name, [psi, q_th, tick, threshold, rounding,
                             replication]),
-              get_dict(Name, Case, Value) ),
+              Value = Case.Name ),
             Settings),
     population_start(main, Hosts, Tasks,
                      [seed(Case.seed), settings(Settings)], _),

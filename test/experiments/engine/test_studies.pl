@@ -3,11 +3,13 @@
 % The catalogue of studies, the reports about faulty ones, and the command.
 
 :- use_module('../../lib/common').
+:- use_module('../../lib/project_studies', [project_study/2, study_names/1]).
 :- use_module('../../lib/study_files',
               [ study_command/4, study_messages/2, with_study/2,
                 with_study_file/2, with_study_file/4 ]).
 :- use_module('../../../experiments/engine/catalogue').
 :- use_module('../../../experiments/engine/studies').
+:- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex), [directory_file_path/3]).
@@ -100,6 +102,51 @@ test(all_errors_are_reported) :-
 
 :- end_tests(studies).
 
+%   claims(Folder, Counts): how many claims each study in a folder has.
+
+claims(algorithms, [ beyond_cloning-3, beyond_crews-7, beyond_exchange-1,
+                     beyond_islands-3, beyond_mixed-4, beyond_settings-5 ]).
+claims(allocation, [ beyond_integrated-5, beyond_replacement-6,
+                     beyond_sharing-6, beyond_urgent-5, figure_7_1_to_7_3-49,
+                     figure_7_4-17, figure_7_5-6, study_contention-34 ]).
+claims(applications, [ study_fire_alarm-5, study_fire_signs-5,
+                       study_irrigation-6, study_solar-10,
+                       study_warehouse-9 ]).
+claims(hierarchy, [beyond_lead-7, beyond_lead_learning-4]).
+claims(learning, [ figure_4_13-5, figure_4_7-16, figure_4_9-34,
+                   study_light-6 ]).
+claims(population, [figure_6_3-9, figure_6_4-14, table_6_1-8]).
+claims(robots, [study_boxes-6, study_pole-12]).
+claims(sieve, [ beyond_memory-3, beyond_programs-2, beyond_return-6,
+                figure_3_3-6, figure_3_4-5, figure_3_5-5,
+                study_comparisons-12 ]).
+claims(sync, [ beyond_selected-4, beyond_several-7, figure_5_11-28,
+               figure_5_12-8, figure_5_2-6, figure_5_5-35, figure_5_6-18,
+               figure_5_7-19, figure_5_8-4, figure_5_9-12, study_choices-7,
+               study_demo-6, study_links-3, study_onset-3, study_readings-3,
+               study_surface-14 ]).
+
+claims_made(Folder, Counts) :-
+    study_names(Names0),
+    msort(Names0, Names),
+    findall(Base-Count,
+            ( member(Name, Names),
+              atomic_list_concat([Folder, Base], /, Name),
+              project_study(Name, Study),
+              aggregate_all(count, study_call(Study, claim(_, _, _)), Count) ),
+            Counts).
+
+%   drawn(-Study, -Measure): a picture of lines shows Measure.
+
+drawn(Study, Measure) :-
+    study_names(Names),
+    member(Name, Names),
+    project_study(Name, Study),
+    study_call(Study, plot(_, _, Picture)),
+    ( Picture = lines(Options) ; Picture = over_time(Options) ),
+    member(y(Measures), Options),
+    ( is_list(Measures) -> member(Measure, Measures) ; Measure = Measures ).
+
 named(Names, Bases) :-
     studies_named(Names, Files),
     maplist(file_base_name, Files, Bases).
@@ -108,6 +155,14 @@ named(Names, Bases) :-
 
 test(each_study_of_the_project_is_valid, Text == "") :-
     study_messages(catalogue(_), Text).
+test(claims_of_each_study, [ forall(claims(Folder, Counts)),
+                             true(Found == Counts) ]) :-
+    claims_made(Folder, Found).
+test(measures_that_are_drawn_have_labels, Missing == []) :-
+    findall(Study-Measure,
+            ( drawn(Study, Measure),
+              \+ study_call(Study, label(Measure, _)) ),
+            Missing).
 test(names, true(memberchk(['5.6', _], Rows))) :-
     catalogue(Rows).
 test(names_are_unique, Names == Sorted) :-
