@@ -1,6 +1,7 @@
 :- module(test_application_studies, []).
 :- use_module('../../lib/common', [with_tmp_dir/1]).
 :- use_module('../../lib/project_studies').
+:- use_module('../../../experiments/engine/studies', [study_call/2]).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
@@ -44,5 +45,18 @@ test(run, [forall(small(Name, _, Given, Measures))]) :-
     with_tmp_dir(run(Study, Given, Point)),
     forall(member(Measure, Measures),
            assertion(( get_dict(Measure, Point, Value), number(Value) ))).
+
+%   In whatever unit.
+
+test(correlation, [ forall(member(Unit, [0.001, 1, 1000])),
+                    true(abs(R - 0.8) < 1.0e-9) ]) :-
+    study(study_solar, Study),
+    findall(X-Y, ( member(X0-Y0, [1-1, 2-3, 3-2, 4-4]), X is Unit*X0,
+                   Y is Unit*Y0 ), Pairs),
+    study_call(Study, correlation(Pairs, R)).
+test(equal_numbers_have_no_correlation, fail) :-
+    study(study_solar, Study),
+    member(Pairs, [[1-1, 1-2], [1-1, 2-1]]),
+    study_call(Study, correlation(Pairs, _)).
 
 :- end_tests(application_studies).

@@ -297,6 +297,19 @@ test(pair_of_cases_in_tests,                % 14 and 15 are above 13
 test(runs_for_which_a_claim_is_unknown, nondet) :-
     saved([values(1, 10, 20), values(2, 12, missing)], 'claims.csv', Text),
     sub_string(Text, _, _, _, "rises,1,1,unknown,m: 11 20,[],1\r").
+test(a_parameter_has_one_row_and_a_reason, Rows == Expected) :-
+    Expected = [ [a, '[1,2]', varied], [b, '[4]', 'given by --set'],
+                 [c, '3', 'assumed: so'], [d, '5', 'printed: there'],
+                 [e, '6', 'tuned after results were seen: it fits'],
+                 [f, '', 'follows from others'] ],
+    with_study([ 'study(toy, "A toy").', 'vary(a, [1, 2]).',
+                 'fixed(b, 3, assumed("so")).', 'fixed(c, 3, assumed("so")).',
+                 'fixed(d, 5, printed("there")).',
+                 'fixed(e, 6, tuned("it fits")).',
+                 'derive(f, Case, F) :- F is Case.a.', 'measure(m, _, 1).' ],
+               Study, parameter_rows(Study, [b-[4]], All)),
+    findall([Name|Row], ( member([Name|Row], All),
+                          atom_length(Name, 1) ), Rows).
 test(parameters, Text == "parameter,value,why\r\na,\"[1,2]\",varied\r\n\c
 c,3,tuned after results were seen: it fits\r\n") :-
     saved('parameters.csv', Text).

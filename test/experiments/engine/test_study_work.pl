@@ -3,8 +3,12 @@
 % Many runs by several processes: each is made once, however the processes end.
 
 :- use_module('../../lib/common').
-:- use_module('../../lib/study_files', [study_command/4, with_study_file/4]).
+:- use_module('../../lib/study_files',
+              [study_command/4, study_messages/2, with_study_file/4]).
 :- use_module('../../lib/texts', [file_lines/2]).
+:- use_module('../../../experiments/engine/cases', [study_cases/3]).
+:- use_module('../../../experiments/engine/studies', [study_load/2]).
+:- use_module('../../../experiments/engine/work', [runs_make/4]).
 :- use_module(library(apply), [include/3]).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex),
@@ -143,6 +147,15 @@ changed(Dir, File) :-
     read_file_to_string(Output, Said, []),
     contains(Said, "has changed").
 
+%   Two workers end by themselves after their run, one in its run.
+
+in_this_process(Dir, File, Failed) :-
+    directory_file_path(Dir, out, Out),
+    study_load(File, Study),
+    study_cases(Study, [what-[a, halt, b]], Cases),
+    findall(run(Study, Case, 1), member(Case, Cases), Runs),
+    no_leaks(study_messages(runs_make(Runs, Out, [jobs(2)], Failed), _)).
+
 :- begin_tests(study_work).
 
 test(run_is_made_once) :-
@@ -209,6 +222,9 @@ test(stuck) :-
           runs(Dir, File, '[a]', ['--runs', 1], exit(0), _),
           below(Dir, '.part', Left),
           assertion(Left == []) )).
+
+test(workers_leave_no_streams, Failed == 1) :-
+    with_toy(Dir, File, in_this_process(Dir, File, Failed)).
 
 %   Two sessions need the same run, which lasts until both have started.
 
