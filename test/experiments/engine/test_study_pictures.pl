@@ -8,6 +8,7 @@
 :- use_module('../../../experiments/engine/cases', [study_cases/3]).
 :- use_module('../../../experiments/engine/gnuplot',
               [lighten/2, plain_text/2]).
+:- use_module('../../../experiments/engine/lines', [lines_picture/6]).
 :- use_module('../../../experiments/engine/outcome', [outcome/4]).
 :- use_module('../../../experiments/engine/overview').
 :- use_module('../../../experiments/engine/page').
@@ -20,7 +21,7 @@
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
-:- use_module(library(lists), [max_list/2, member/2, memberchk/2]).
+:- use_module(library(lists), [max_list/2, member/2, memberchk/2, numlist/3]).
 :- use_module(library(plunit)).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(sgml), [load_html/3]).
@@ -151,6 +152,49 @@ part(own_variables, 'three.gnuplot',
      [ "NAME = \"three\"", "HEIGHT = 200", "X = 1",
        "array Names[2] = [\"a\", \"b\\\"c\"]", "load \"own.gp\"" ]).
 
+%   ticks(Name, Values, Ticks): at 1, 2 or 5 times a power of ten.
+
+ticks(few_numbers, [1, 2, 4, 8], "'1' 1,'2' 2,'4' 4,'8' 8").
+ticks(twelve_numbers, Values, Ticks) :-
+    numlist(1, 12, Values),
+    at_steps(1, 12, 1, Ticks).
+ticks(steps_of_two, Values, Ticks) :-
+    numlist(1, 15, Values),
+    at_steps(2, 14, 2, Ticks).
+ticks(steps_of_five, Values, Ticks) :-
+    numlist(1, 20, Values),
+    at_steps(5, 20, 5, Ticks).
+ticks(a_whole_step, Values, Ticks) :-   % 40/8
+    numlist(0, 40, Values),
+    at_steps(0, 40, 5, Ticks).
+ticks(steps_of_ten, Values, Ticks) :-
+    numlist(3, 53, Values),
+    at_steps(10, 50, 10, Ticks).
+ticks(close_numbers, [0, 1, 100], Ticks) :-
+    at_steps(0, 100, 20, Ticks).
+ticks(fractions, Values, "'0.5' 0.5,'1' 1,'1.5' 1.5,'2' 2") :-
+    findall(X, ( between(1, 20, I), X is I/10 ), Values).
+
+at_steps(Low, High, Step, Text) :-
+    findall(Tick,
+            ( between(Low, High, At), At mod Step =:= 0,
+              format(atom(Tick), "'~w' ~w", [At, At]) ), Ticks),
+    atomic_list_concat(Ticks, ',', Atom),
+    atom_string(Atom, Text).
+
+x_ticks(Values, Ticks) :-
+    format(atom(Vary), 'vary(n, ~w).', [Values]),
+    with_study_file(['study(toy, "A toy").', Vary, 'measure(m, _, 1).'], Dir,
+                    File, x_ticks(File, Dir, Ticks)).
+
+x_ticks(File, Dir, Ticks) :-
+    study_load(File, Study),
+    study_cases(Study, [], Cases),
+    findall(run(Case, 1, measures{m:1}), member(Case, Cases), Runs),
+    lines_picture(Study, toy-"Toy", [x(n), y(m)], Runs, Dir, _-Variables),
+    memberchk('XTICS'-Atom, Variables),
+    atom_string(Atom, Ticks).
+
 :- begin_tests(study_pictures).
 
 test(files_of_pictures, Wrong == []) :-
@@ -183,6 +227,9 @@ test(lines_are_not_joined_across_a_case_without_runs,
           text(Dir, 'one.dat', Text) )).
 test(texts_are_drawn_verbatim, Plain == 'a\\_b\\^2\\{\\\\') :-
     plain_text("a_b^2{\\", Plain).
+test(ticks_of_many_numbers, [ forall(ticks(_, Values, Ticks)),
+                              true(Text == Ticks) ]) :-
+    x_ticks(Values, Text).
 test(light_colour_is_a_quarter_as_far_from_white, Wrong == []) :-
     findall(Colour,
             ( member(Shift, [0, 8, 16]), between(0, 255, Part),

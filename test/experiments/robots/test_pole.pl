@@ -128,6 +128,15 @@ test(stacked, Rows == [[0, 1, 0], [0, 1, 1], [0, 2, 2], [3, 2, 0]]) :-
 
 :- end_tests(pole_metrics).
 
+%   ready(+Task, +Robot, -Time): the one before has ended.
+
+ready(1, _, 0) :-
+    !.
+ready(T, R, End) :-
+    Before is T - 1,
+    start(in_step, Before, R, Start),
+    End is Start + R + 4.
+
 %   about(+Row, +Wanted): rows of numbers, or atoms.
 
 about([], []).
@@ -163,6 +172,14 @@ test(required_tasks) :-
                       [ [0, 1], [0.6, 0], [5, 1], [27.6, 0], [32, 1],
                         [54.6, 0], [59, 1], [81.6, 0] ])),
     assertion(Alone.taus == [[0, 0], [32, 0]]).
+test(robots_require_a_task_until_they_begin_it) :-
+    findall([R, T, From, To, 0],
+            ( between(1, 4, R), between(1, 4, T), start(in_step, T, R, To),
+              ready(T, R, From), From < To ), Wanted),
+    points([_-Ms|_]),
+    findall([R, T, From, To, 0], member([R, T, From, To, 0], Ms.bars), Found0),
+    sort(Found0, Found),
+    assertion(maplist(about, Found, Wanted)).
 test(tables) :-
     points([_-InStep, _-Alone]),
     assertion(maplist(about, InStep.tilts,
