@@ -3,6 +3,7 @@
 :- use_module('../../lib/networks').
 :- use_module('../../lib/algorithms_bench').
 :- use_module('../../lib/fake_agent').
+:- use_module('../../lib/project_studies', [project_study/2]).
 :- use_module(library(aggregate)).
 :- use_module(library(apply)).
 :- use_module(library(lists)).
@@ -10,6 +11,7 @@
 :- use_module(library(typhon)).
 :- use_module('../../../agents/learning/operator').
 :- use_module('../../../experiments/algorithms/metrics').
+:- use_module('../../../experiments/engine/cases', [study_cases/3]).
 :- use_module('../../../experiments/algorithms/printers').
 
 /** <module> Two algorithms in one population, exchange, cloning, measures
@@ -62,10 +64,12 @@ test(path_with_most_links, Plans == [[a,b,c]]) :-
 
 %   The corner of the figures. The seeds make the result repeatable.
 
+trap(size-16).
+trap(obstacles-[(6,6)-(6,11),(6,11)-(12,11)]).
+
 trap :-
-    problem(payloads(learning/maze),
-            [ setting(size, 16),
-              setting(obstacles, [(6,6)-(6,11),(6,11)-(12,11)]) ]).
+    findall(setting(Name, Value), trap(Name-Value), Settings),
+    problem(payloads(learning/maze), Settings).
 
 robots(Kinds, Modules) :-
     findall(Name,
@@ -89,6 +93,13 @@ test(scout_leads_out_of_the_trap_of_greedy) :-
     runs_at_the_light([greedy,greedy,greedy,scout], 250, Both),
     Greedy < 4,
     Both > Greedy.
+test(studies_have_this_trap, [ forall(member(Study, [mixed, exchange])),
+                               true(Settings == Trap) ]) :-
+    atom_concat('algorithms/beyond_', Study, Name),
+    project_study(Name, Module),
+    study_cases(Module, [], [Case|_]),
+    Settings = Case.settings,
+    findall(Setting, trap(Setting), Trap).
 
 :- end_tests(trap).
 

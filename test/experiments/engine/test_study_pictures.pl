@@ -158,19 +158,20 @@ ticks(few_numbers, [1, 2, 4, 8], "'1' 1,'2' 2,'4' 4,'8' 8").
 ticks(twelve_numbers, Values, Ticks) :-
     numlist(1, 12, Values),
     at_steps(1, 12, 1, Ticks).
-ticks(steps_of_two, Values, Ticks) :-
-    numlist(1, 15, Values),
-    at_steps(2, 14, 2, Ticks).
+ticks(thirteen_numbers, Values, Ticks) :-
+    numlist(1, 13, Values),
+    at_steps(2, 12, 2, Ticks).
 ticks(steps_of_five, Values, Ticks) :-
     numlist(1, 20, Values),
     at_steps(5, 20, 5, Ticks).
 ticks(a_whole_step, Values, Ticks) :-   % 40/8
     numlist(0, 40, Values),
     at_steps(0, 40, 5, Ticks).
-ticks(steps_of_ten, Values, Ticks) :-
-    numlist(3, 53, Values),
-    at_steps(10, 50, 10, Ticks).
-ticks(close_numbers, [0, 1, 100], Ticks) :-
+ticks(more_than_a_step, Values, Ticks) :-
+    numlist(0, 41, Values),
+    at_steps(0, 40, 10, Ticks).
+ticks(a_25th_apart, [0, 4, 100], "'0' 0,'4' 4,'100' 100").
+ticks(closer_than_that, [0, 3.9, 100], Ticks) :-
     at_steps(0, 100, 20, Ticks).
 ticks(fractions, Values, "'0.5' 0.5,'1' 1,'1.5' 1.5,'2' 2") :-
     findall(X, ( between(1, 20, I), X is I/10 ), Values).
