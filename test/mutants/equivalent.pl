@@ -12,6 +12,7 @@
 :- use_module(changes, [change_words/3, file_changes/2, plain_head/2]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(occurs), [sub_term/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 
 %   equivalent(File, Predicate, Kind, Old, New, Reason): Old and New are the
@@ -26,6 +27,15 @@ equivalent('prolog/typhon/options/quotas/usage.pl', spend_shared/3, goal,
 equivalent('prolog/typhon/options/cell/cells.pl', give/2, goal,
            "key_without_cell(_)", "true",
            "the server of the cells wakes, and finds nothing to do").
+
+equivalent('experiments/sync/metrics.pl', gaps/1, order,
+           "gaps([]). gaps([task(_, _, _, _, _, none)]) :- !",
+           "gaps([task(_, _, _, _, _, none)]) :- !. gaps([])",
+           "no list of rows matches both").
+equivalent('experiments/population/metrics.pl', counts/2, order,
+           "counts(created, 1). counts(ended(_), -1)",
+           "counts(ended(_), -1). counts(created, 1)",
+           "an event of a log, which is ground, matches one of them").
 
 %!  equivalent_change(+Change, -Reason:string) is semidet.
 
@@ -48,6 +58,28 @@ equivalent_change(Change, "declarations of a study, which are found by name") :-
     Change = change(File, _, _, _, order, Predicate, _),
     of_study(File),
     memberchk(Predicate, [fixed/3, label/2]).
+equivalent_change(Change, "measures of a study, which are sorted by name") :-
+    Change = change(File, _, _, _, order, measure/3, _),
+    of_study(File),
+    changed_clauses(Change, First, Second),
+    maplist(without_cut, [First, Second]).
+equivalent_change(Change, "two options of other names, of which one matches") :-
+    Change = change(_, _, _, _, order, declared/4, _),
+    changed_clauses(Change, First, Second),
+    maplist(declared_option, [First, Second], Options),
+    maplist(nonvar, Options),
+    Options = [Option1, Option2],
+    functor(Option1, Name1, _),
+    functor(Option2, Name2, _),
+    Name1 \== Name2.
+equivalent_change(Change, "sides of a comparison that has no direction") :-
+    Change = change(_, _, _, _, constants, _, _),
+    change_words(Change, Old, New),
+    member(Operator, [" =:= ", " =\\= ", " == ", " \\== "]),
+    atomic_list_concat([Left, Right], Operator, Old),
+    atomic_list_concat([Right, Left], Operator, Exchanged),
+    atom_string(Exchanged, New),
+    stands_alone(Change).
 equivalent_change(Change, "a value that a study assumes, and reports") :-
     Change = change(File, Start, _, _, bound, fixed/3, _),
     of_study(File),
@@ -62,6 +94,25 @@ equivalent_change(Change, "a searched list in another order") :-
     change_words(Change, Old, _),
     text_before(File, Start, Before),
     searched_list(Before, Old).
+
+without_cut(Clause) :-
+    \+ ( sub_term(Goal, Clause), Goal == ! ).
+
+declared_option(typhon_options:declared(_, Option, _, _), Option).
+
+%   stands_alone(+Change): what is changed is a goal or an argument by itself.
+
+stands_alone(change(File, Start, End, _, _, _, _)) :-
+    project_file(File, Path),
+    read_file_to_string(Path, Text, [encoding(utf8)]),
+    sub_string(Text, 0, Start, _, Before0),
+    sub_string(Text, End, _, 0, After0),
+    split_string(Before0, "", " \n", [Before]),
+    split_string(After0, "", " \n", [After]),
+    sub_atom(Before, _, 1, 0, Left),
+    sub_atom(After, 0, 1, _, Right),
+    memberchk(Left, ['(', '[', ',']),
+    memberchk(Right, [')', ']', ',', '.']).
 
 of_study(File) :-
     sub_atom(File, 0, _, _, 'experiments/').

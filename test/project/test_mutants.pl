@@ -44,15 +44,15 @@ changes_of(Program, Changes) :-
                         write_file(File, Program),
                         file_changes(File, Changes) )).
 
-%   orders(+Program, -Lines): of changes of the order that change something.
+%   tried(+Kind, +Program, -Lines): of changes of Kind that change something.
 
-orders(Program, Lines) :-
+tried(Kind, Program, Lines) :-
     with_tmp_dir(Dir,
         ( directory_file_path(Dir, 'm.pl', File),
           write_file(File, Program),
           file_changes(File, Changes),
           findall(Line, ( member(Change, Changes),
-                          Change = change(_, _, _, _, order, _, Line),
+                          Change = change(_, _, _, _, Kind, _, Line),
                           \+ equivalent_change(Change, _) ), Lines) )).
 
 %   parts(-Parts): predicate, kind, line and new text of the changes of a
@@ -132,14 +132,14 @@ test(suite_that_waits_for_ever_is_ended, Result == killed(hangs)) :-
 test(equivalent_changes_are_still_possible, Outdated == []) :-
     findall(File, outdated_equivalent(File), Outdated).
 test(order_of_messages_is_equivalent, Orders == [4,6]) :-
-    orders(":- module(m, []).\n\c
+    tried(order, ":- module(m, []).\n\c
             prolog:message(a(_)) --> [x].\n% two\n\c
             prolog:message(b(_)) --> [y].\n\c
             prolog:message(b(_)) --> [z].\n\c
             p(a) --> [x].\np(b) --> [y].\n", Orders).
 test(order_of_single_sided_rules_of_other_goals_is_equivalent,
      Orders == [3,4,5]) :-
-    orders(":- module(m, []).\n\c
+    tried(order, ":- module(m, []).\n\c
             p(a, _), x => true.\n\c
             p(b, _), y => true.\n\c
             p(b, 1) => true.\n\c
@@ -151,21 +151,15 @@ test(no_change_leaves_the_program_as_it_was, [fail]) :-
     program(Program),
     member(Program, Texts).
 test(order_of_a_list_that_is_searched_is_equivalent, Lines == [4,5,6,7,8,9]) :-
-    with_tmp_dir(Dir,
-        ( directory_file_path(Dir, 'm.pl', File),
-          write_file(File, ":- module(m, []).\n\c
-              p(X) :- memberchk(X, [a,b,c]).\n\c
-              p(X) :- memberchk(X,\n [a]),\n\c
-              member(X, [b,a]).\n\c
-              p(X) :- memberchk(x(X), [a,b]).\n\c
-              p(X) :- memberchk(X, [a]), q(b).\n\c
-              p(X) :- memberchk(X, [x(a,b)]).\n\c
-              p(X) :- memberchk(X-[c], [a,b]).\n"),
-          file_changes(File, Changes),
-          findall(Line, ( member(Change, Changes),
-                          Change = change(_, _, _, _, constants, _, Line),
-                          \+ equivalent_change(Change, _) ), Lines0),
-          sort(Lines0, Lines) )).
+    tried(constants, ":- module(m, []).\n\c
+        p(X) :- memberchk(X, [a,b,c]).\n\c
+        p(X) :- memberchk(X,\n [a]),\n\c
+        member(X, [b,a]).\n\c
+        p(X) :- memberchk(x(X), [a,b]).\n\c
+        p(X) :- memberchk(X, [a]), q(b).\n\c
+        p(X) :- memberchk(X, [x(a,b)]).\n\c
+        p(X) :- memberchk(X-[c], [a,b]).\n", Lines0),
+    sort(Lines0, Lines).
 test(assumed_values_and_orders_of_declarations_of_studies_are_equivalent,
      Kinds == [ assumed-equivalent, order-equivalent, printed-tried ]) :-
     findall(Kind-Verdict,
@@ -182,6 +176,32 @@ test(assumed_values_and_orders_of_declarations_of_studies_are_equivalent,
               ) ),
             Kinds0),
     sort(Kinds0, Kinds).
+
+test(sides_of_comparisons_without_direction_are_equivalent,
+     Lines == [5, 6, 7]) :-
+    tried(constants, ":- module(m, []).\n\c
+                      p(X) :- X = (a == b).\n\c
+                      p(X) :- q(a =\\= b, X).\n\c
+                      p(X) :- q(X, [a \\== b]).\n\c
+                      p(X) :- q(X-a =:= b).\n\c
+                      p(X) :- q(a =:= b+X).\n\c
+                      p(X) :- q(X, a > b).\n", Lines).
+test(order_of_measures_of_a_study_is_equivalent, Tried == []) :-
+    File = 'experiments/applications/study_warehouse.pl',
+    project_file(File, Path),
+    file_changes(Path, Changes),
+    findall(S-E, member(change(_, S, E, _, order, measure/3, _), Changes), All),
+    findall(S-E, ( member(change(_, S, E, New, order, measure/3, L), Changes),
+                   \+ equivalent_change(change(File, S, E, New, order,
+                                               measure/3, L), _) ), Tried),
+    assertion(All = [_,_|_]).
+test(order_of_options_of_other_names_is_equivalent, Lines == [3, 4, 5]) :-
+    tried(order, ":- module(m, []).\n\c
+            typhon_options:declared(d, a(X), t, X).\n\c
+            typhon_options:declared(d, b(X), t, X).\n\c
+            typhon_options:declared(d, b(X, Y), t, X-Y).\n\c
+            typhon_options:declared(d, X, t, X) :- p.\n\c
+            typhon_options:declared(d, c(X), t, X).\n", Lines).
 
 fixed_kind(order, _, _, order).
 fixed_kind(bound, Path, Line, Kind) :-
