@@ -103,9 +103,9 @@ made('algorithms/beyond_settings', [algorithm=Algorithm, sharing=Sharing],
 made('learning/study_light', [network=Network, density=D, light=Light],
      [executions-Executions, sharing-Sharing/0.5, duration-Duration]) :-
     member(Network/D-Executions-Duration,
-           [ 10/0.1-(214/215)-(300/299), 10/0.2-(121/122)-(3000/3001),
-             10/0.5-(114/116)-(300/3001), 50/0.1-(101/102)-(300/299),
-             50/0.2-(1/1)-(300/299), 50/0.5-(100/100)-(300/299) ]),
+           [ 10/0.1-(214/215)-(300/3001), 10/0.2-(121/122)-(3000/3001),
+             10/0.5-(114/116)-(300/3001), 50/0.1-(101/102)-(300/3001),
+             50/0.2-(1/1)-(300/3001), 50/0.5-(100/100)-(300/3001) ]),
     member(Light-Sharing, [10-0.6, 100-0.5]).
 
                 /*******************************

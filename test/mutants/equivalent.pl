@@ -58,6 +58,11 @@ equivalent_change(Change, "declarations of a study, which are found by name") :-
     Change = change(File, _, _, _, order, Predicate, _),
     of_study(File),
     memberchk(Predicate, [fixed/3, label/2]).
+equivalent_change(Change, "the line of the thesis that a claim names") :-
+    Change = change(File, Start, _, _, bound, claim/3, _),
+    of_study(File),
+    text_before(File, Start, Before),
+    sub_string(Before, _, _, 0, "line(").
 equivalent_change(Change, "measures of a study, which are sorted by name") :-
     Change = change(File, _, _, _, order, measure/3, _),
     of_study(File),

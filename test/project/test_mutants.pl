@@ -186,15 +186,14 @@ test(sides_of_comparisons_without_direction_are_equivalent,
                       p(X) :- q(X-a =:= b).\n\c
                       p(X) :- q(a =:= b+X).\n\c
                       p(X) :- q(X, a > b).\n", Lines).
-test(order_of_measures_of_a_study_is_equivalent, Tried == []) :-
-    File = 'experiments/applications/study_warehouse.pl',
-    project_file(File, Path),
-    file_changes(Path, Changes),
-    findall(S-E, member(change(_, S, E, _, order, measure/3, _), Changes), All),
-    findall(S-E, ( member(change(_, S, E, New, order, measure/3, L), Changes),
-                   \+ equivalent_change(change(File, S, E, New, order,
-                                               measure/3, L), _) ), Tried),
-    assertion(All = [_,_|_]).
+test(order_of_measures_of_a_study_is_equivalent, Verdicts == [equivalent]) :-
+    verdicts('experiments/applications/study_warehouse.pl', order, measure/3,
+             _, Verdicts).
+test(line_of_the_thesis_in_a_claim_is_equivalent,
+     Printed-Bounds == [equivalent]-[tried]) :-
+    File = 'experiments/learning/study_light.pl',
+    verdicts(File, bound, claim/3, "2373", Printed),
+    verdicts(File, bound, claim/3, "3000", Bounds).
 test(order_of_options_of_other_names_is_equivalent, Lines == [3, 4, 5]) :-
     tried(order, ":- module(m, []).\n\c
             typhon_options:declared(d, a(X), t, X).\n\c
@@ -202,6 +201,23 @@ test(order_of_options_of_other_names_is_equivalent, Lines == [3, 4, 5]) :-
             typhon_options:declared(d, b(X, Y), t, X-Y).\n\c
             typhon_options:declared(d, X, t, X) :- p.\n\c
             typhon_options:declared(d, c(X), t, X).\n", Lines).
+
+%   verdicts(+File, +Kind, +Predicate, ?Old, -Verdicts): of its changes of Old.
+
+verdicts(File, Kind, Predicate, Old, Verdicts) :-
+    project_file(File, Path),
+    file_changes(Path, Changes),
+    findall(Verdict,
+            ( member(change(_, Start, End, New, Kind, Predicate, Line),
+                     Changes),
+              Change = change(File, Start, End, New, Kind, Predicate, Line),
+              change_words(Change, Old, _),
+              (   equivalent_change(Change, _)
+              ->  Verdict = equivalent
+              ;   Verdict = tried
+              ) ),
+            All),
+    sort(All, Verdicts).
 
 fixed_kind(order, _, _, order).
 fixed_kind(bound, Path, Line, Kind) :-
