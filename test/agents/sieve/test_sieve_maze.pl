@@ -11,7 +11,9 @@ hand, and programs drawn at random.
 :- use_module(library(aggregate)).
 :- use_module(library(apply)).
 :- use_module(library(lists)).
+:- use_module(library(ordsets), [ord_subtract/3]).
 :- use_module(library(plunit)).
+:- use_module(library(yall)).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/base/prng)).
 :- use_module(library(typhon/kernel/program), [payload_load/2]).
@@ -93,6 +95,13 @@ before(_, at(X, Y, H), at(X, Y, H0)) :-
     heading(H0),
     ( maze:robot_turned(left, H0, H) ; maze:robot_turned(right, H0, H) ).
 
+%   answer(+Sight, -Clause): at a sight, the first of its right actions.
+
+answer(Sight-[Answer|_], (Answer :- Body)) :-
+    once(maze:sight(Sight, Readings)),
+    reverse(Readings, [Last|Others]),
+    foldl([Reading, Rest, (Reading, Rest)]>>true, Others, Last, Body).
+
 %   A step on a shortest way.
 
 on_the_way(Rows, Pairs, Reading, Action) :-
@@ -108,11 +117,11 @@ on_the_way(Rows, Pairs, Reading, Action) :-
 
 :- begin_tests(sieve_maze_boards).
 
-test(antigens, Count == 10) :-
-    findall(A, maze:antigen(A), As),
-    sort(As, Sorted),
-    length(Sorted, Count),
-    ground(Sorted).
+test(antigens_are_drawn_in_this_order,
+     As == [ block(left), block(right), wall(left), wall(right), corner(left),
+             corner(right), corridor(left), corridor(right), box(left),
+             box(right) ]) :-
+    findall(A, maze:antigen(A), As).
 test(rows, [ forall(maze:obstacle(_, _, Rows)) ]) :-
     maplist(atom_length, Rows, Lengths),
     sort(Lengths, [_]),
@@ -125,6 +134,11 @@ test(shortest, [ forall(maze:obstacle(_, Steps, Rows)),
     memberchk(at(X, Y, 0/(-1))-Found, Pairs).
 test(five_sights, [ forall(maze:known_by(_, Sights)), true(N == 5) ]) :-
     length(Sights, N).
+test(right_actions_at_all_sights_have_the_full_affinity,
+     [ forall(maze:known_by(Kind, Sights)), true(Psi == 5) ]) :-
+    maplist(answer, Sights, Program),
+    Antigen =.. [Kind,left],
+    psi(Antigen, Psi, Program).
 test(sights_are_seen, [ forall(maze:obstacle(Kind, _, Rows)),
                         true(Wrong == []) ]) :-
     to_goal(Rows, Pairs),
@@ -233,16 +247,57 @@ test(invalid_clauses_are_harmless,
 
 :- end_tests(sieve_maze_programs).
 
+%   reading(-Reading): see the comment of the payload.
+
+reading(Reading) :-
+    member(Sense-Sides, [ free-[ahead,left,right], wall-[ahead,left,right],
+                          goal-[ahead,behind,left,right],
+                          after-[forward,left,right] ]),
+    member(Side, Sides),
+    Reading =.. [Sense,Side].
+
+reading((A,B), Reading) =>
+    member(Reading, [A,B]).
+reading(Body, Reading) =>
+    Reading = Body.
+
+senseless(forward, [after(forward),wall(ahead)]).
+senseless(left, [after(right),wall(left)]).
+senseless(right, [after(left),wall(right)]).
+
+excluded(A-A).
+excluded(after(_)-after(_)).
+excluded(free(Side)-wall(Side)).
+excluded(wall(Side)-free(Side)).
+
 :- begin_tests(sieve_maze_random).
 
 test(repeatable, Programs == Again) :-
     drawn(7, 20, Programs),
     drawn(7, 20, Again).
-test(mobile_clauses, Wrong == []) :-
+test(each_action_has_all_readings_that_make_sense,
+     [ forall(senseless(Action, Senseless)), Found == Expected ]) :-
+    drawn(8, 600, Programs),
+    findall(Reading, ( member(P, Programs), member((Action :- Body), P),
+                       reading(Body, Reading) ), Found0),
+    sort(Found0, Found),
+    findall(Reading, reading(Reading), All0),
+    sort(All0, All),
+    ord_subtract(All, Senseless, Expected).
+test(readings_are_drawn_in_this_order, Others == [ free(right), wall(right),
+        goal(ahead), goal(behind), goal(left), goal(right), after(forward),
+        after(left) ]) :-
+    findall(Other, ( maze:other_reading(left, wall(ahead), Other),
+                     Other \= free(left) ), Others).
+test(two_readings_of_a_clause_can_both_hold, Pairs-Excluded == yes-[]) :-
+    drawn(8, 600, Programs),
+    findall(A-B, ( member(P, Programs), member((_ :- A, B), P) ), All),
+    ( All == [] -> Pairs = no ; Pairs = yes ),
+    findall(Pair, ( member(Pair, All), excluded(Pair) ), Excluded).
+test(programs_have_three_to_five_clauses, Lengths == [3, 4, 5]) :-
     drawn(8, 100, Programs),
-    findall(C, ( member(P, Programs), member(C, P),
-                 \+ ( C = (A :- _), ground(C),
-                      memberchk(A, [forward,left,right]) ) ), Wrong).
+    maplist(length, Programs, Lengths0),
+    sort(Lengths0, Lengths).
 test(selection, [ forall(member(Antigen, [ block(left), wall(right),
                                            corner(left), corridor(right) ]))
                 ]) :-
