@@ -474,6 +474,13 @@ acts(no_free_neighbour_is_known,
 acts(releases_are_shared,
      [setting(sharing, own), held(here, r, x, 1, reserved)], [fake_at(9)],
      deallocate([reserved]), [news(here, [push], free, 9)]).
+acts(only_what_is_released_is_reported_free, [setting(sharing, Sharing)|Held],
+     [fake_at(9)],
+     ( deallocate([reserved]), findall(At-Needs-Time, news(At, Needs, free, Time), News) ),
+     [News == Reported]) :-
+    Held = [ held(here, r, x, 2, reserved), held(b, q, y, 1, started),
+             held(c, p, z, 1, done) ],
+    member(Sharing-Reported, [own-[here-[lift]-9], none-[]]).
 acts(executing_robots_are_not_released,
      [held(b, q, x, 1, started), setting(backoff, constant)], [], back_off,
      [held(b, q, x, 1, started), trail=[here, b, a]]).
