@@ -5,7 +5,7 @@
 :- use_module(library(plunit)).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/3]).
-:- use_module(library(lists), [append/2, member/2, nth1/3]).
+:- use_module(library(lists), [append/2, append/3, member/2, nth1/3]).
 :- use_module(library(pairs), [map_list_to_pairs/3]).
 :- use_module(library(typhon)).
 
@@ -67,6 +67,19 @@ test(strategy, [ forall(member(Strategy-Same, [ one_for_one-[a,c],
                        B1 \== B ), 10) )),
     findall(Name, ( nth1(N, Old, Id), nth1(N, New, Id),
                     nth1(N, Children, Name-_) ), Kept).
+%   Messages show a few names.
+
+test(long_lists_of_restarts_are_cut,
+     [ forall(member(Count-Told, [ 1-[a], 5-[a,b,c,d,e],
+                                   6-[a,b,c,others(3)] ])),
+       Restarts == Told ]) :-
+    length(Children, Count),
+    append(Children, _, [a-[],b-[],c-[],d-[],e-[],f-[]]),
+    with_children(Children, [strategy(one_for_all)], S, [Id|_],
+        ( agent_dispose(Id),
+          wait_until(was_printed(informational,
+                                 typhon(log(_, _, restarts(Restarts)))), 10),
+          wait_until(children(S, Children, _), 10) )).
 test(restart_types, [forall(member(Type-Goal-Again,
                                    [ permanent-true-yes, transient-true-no,
                                      transient-dispose-yes,
