@@ -57,6 +57,7 @@ fake_host:next_host(_, next).
 fake_host:emit(Problem, _)  :- assertz(fake_host:did(emit(Problem))).
 fake_host:withdraw(Problem) :- assertz(fake_host:did(withdraw(Problem))).
 fake_host:dispose :- throw(disposed).
+fake_host:payload(_, _).               % the declaration of a payload
 
 fake_host:send(Id, _) :-
     fake_host:dead(Id),

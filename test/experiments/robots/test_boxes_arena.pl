@@ -32,8 +32,6 @@ later(Goal) :-
     arena_ask(Arena, 'advance 0.1', ok),
     call(typhon_nxt:Goal).
 
-fake_host:payload(_, _).
-
 fake_host:nxt_run(B, M, P, O) :-
     (   is_list(M)
     ->  forall(member(One, M),
