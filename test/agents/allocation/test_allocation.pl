@@ -476,7 +476,8 @@ acts(releases_are_shared,
      deallocate([reserved]), [news(here, [push], free, 9)]).
 acts(only_what_is_released_is_reported_free, [setting(sharing, Sharing)|Held],
      [fake_at(9)],
-     ( deallocate([reserved]), findall(At-Needs-Time, news(At, Needs, free, Time), News) ),
+     ( deallocate([reserved]),
+       findall(At-Needs-Time, news(At, Needs, free, Time), News) ),
      [News == Reported]) :-
     Held = [ held(here, r, x, 2, reserved), held(b, q, y, 1, started),
              held(c, p, z, 1, done) ],
