@@ -121,12 +121,12 @@ settings(Hosts, Options, Settings) :-
 %   them; more than 1 only if nodes send one message after the other.
 
 in_turn(Pairs, Hosts, Edges, Turns) :-
-    memberchk(sending-one_by_one(Share), Pairs),
-    !,
-    length(Edges, Links),
-    length(Hosts, Count),
-    Turns is max(1, Share*Links/Count).
-in_turn(_, _, _, 1).
+    (   memberchk(sending-one_by_one(Share), Pairs)
+    ->  length(Edges, Links),
+        length(Hosts, Count),
+        Turns is max(1, Share*Links/Count)
+    ;   Turns = 1
+    ).
 
 slack(_, Options, Slack) :-
     option(slack(Slack), Options),

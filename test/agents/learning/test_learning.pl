@@ -372,6 +372,15 @@ test(other_seed_other_execution, true(Other \== Once)) :-
     tried(8, Other).
 test(trainers_of_two_hosts_differ, true(( Same == A, A \== B ))) :-
     maplist(tried_at, ['a@x:1', 'b@x:1', 'a@y:2'], [A, B, Same]).
+test(an_execution_begins_with_a_seed_of_30_bits, Begun == [Beginning]) :-
+    trainer([seed-1]),
+    fake_agent:chance(Chance),
+    typhon_prng:chance_below(1073741824, Seed, Chance, _),
+    typhon_prng:chance_seed(Seed, Beginning),
+    asserta((fake_agent:start(From, _) :-
+                 assertz(fake_host:did(begun(From))), fail)),
+    trains([], 1, _, _),
+    findall(From, fake_host:did(begun(From)), Begun).
 test(executions_differ, true(Second \== First)) :-
     tried(7, [First, Second|_]).
 
