@@ -267,11 +267,13 @@ seen(Name, _, Value) :-
 %   digits.
 
 alike(Expected, Term) :-
-    (   number(Expected),
-        number(Term)
-    ->  abs(Expected-Term) =< 1.0e-9*max(1, abs(Term))
-    ;   compound(Expected),
-        compound(Term)
-    ->  mapargs(alike, Expected, Term)
-    ;   Expected = Term
+    (   number(Expected)
+    ->  number(Term),
+        abs(Expected-Term) =< 1.0e-9*max(1, abs(Term))
+    ;   compound(Expected)
+    ->  compound(Term),
+        mapargs(alike, Expected, Term)
+    ;   var(Expected)
+    ->  Expected = Term
+    ;   Expected == Term
     ).
