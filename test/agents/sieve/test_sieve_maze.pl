@@ -284,11 +284,22 @@ test(each_action_has_all_readings_that_make_sense,
     findall(Reading, reading(Reading), All0),
     sort(All0, All),
     ord_subtract(All, Senseless, Expected).
-test(readings_are_drawn_in_this_order, Others == [ free(right), wall(right),
-        goal(ahead), goal(behind), goal(left), goal(right), after(forward),
-        after(left) ]) :-
-    findall(Other, ( maze:other_reading(left, wall(ahead), Other),
-                     Other \= free(left) ), Others).
+test(readings_are_drawn_in_this_order,
+     [ forall(member(Action-Reading-Order,
+                     [ forward-after(left)
+                       -[ free(ahead), free(left), free(right), wall(left),
+                          wall(right), goal(ahead), goal(behind), goal(left),
+                          goal(right) ],
+                       left-goal(left)
+                       -[ free(ahead), free(left), free(right), wall(ahead),
+                          wall(right), goal(ahead), goal(behind), goal(right),
+                          after(forward), after(left) ],
+                       right-goal(left)
+                       -[ free(ahead), free(left), free(right), wall(ahead),
+                          wall(left), goal(ahead), goal(behind), goal(right),
+                          after(forward), after(right) ] ])),
+       Others == Order ]) :-
+    findall(Other, maze:other_reading(Action, Reading, Other), Others).
 test(two_readings_of_a_clause_can_both_hold, Pairs-Excluded == yes-[]) :-
     drawn(8, 600, Programs),
     findall(A-B, ( member(P, Programs), member((_ :- A, B), P) ), All),
