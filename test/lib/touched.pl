@@ -110,11 +110,15 @@ place(Suite, change(Files, _, _, _, Texts), 3) :-
 folder(File, Folder) :-
     \+ sub_atom(File, 0, _, _, 'test/'),
     file_directory_name(File, Dir),
-    (   atom_concat('prolog/typhon/', Rest, Dir)
-    ->  atom_concat('prolog/', Rest, Mirrored)
+    (   mirrored(From, To),
+        atom_concat(From, Rest, Dir)
+    ->  atom_concat(To, Rest, Mirrored)
     ;   Mirrored = Dir
     ),
     with_suites(Mirrored, Folder).
+
+mirrored('prolog/typhon/', 'prolog/').
+mirrored('payloads/', 'agents/').       % suites of the agents that carry them
 
 with_suites(., 'test/project') :-
     !.

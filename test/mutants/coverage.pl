@@ -25,6 +25,7 @@ there, too.
 :- use_module('../lib/common', [project_file/2]).
 :- use_module('../lib/run_log', [suite_time/2]).
 :- use_module('../lib/suites', [all_suites/1, suite_name/2]).
+:- use_module('../lib/touched', [touched_suites/2]).
 :- use_module(library(apply), [foldl/4]).
 :- use_module(library(filesex),
               [directory_file_path/3, directory_member/3, make_directory_path/1]).
@@ -217,8 +218,7 @@ load_coverage(File) :-
 %   The suites that execute Predicate of File, as suite(Suite, Processor,
 %   Seconds). First the suite of the same place in test/, then the quickest.
 %   Of predicates that no suite is known to execute, such as those of facts
-%   only, and of programs of agents: those that execute something in File, or
-%   are in its place.
+%   only, and of programs of agents: those that a change of File touches.
 
 suites_of(File, Predicate, Suites) :-
     findall(Order-suite(Suite, Processor, Seconds),
@@ -233,17 +233,11 @@ suites_of(File, Predicate, Suites) :-
     keysort(Pairs0, Pairs),
     pairs_values(Pairs, Suites).
 suites_of(File, _, Suites) :-
-    findall(Order-suite(Suite, Processor, Seconds),
-            ( suite(Suite, Processor, Seconds),
-              (   executes(Suite, File, _)
-              ->  true
-              ;   same_place(File, Suite)
-              ),
-              order(File, Suite, Processor, Order)
-            ),
-            Pairs0),
-    keysort(Pairs0, Pairs),
-    pairs_values(Pairs, Suites).
+    touched_suites([File], Times),
+    findall(suite(Suite, Processor, Seconds),
+            ( member(time(Suite, _, _), Times),
+              suite(Suite, Processor, Seconds) ),
+            Suites).
 
 order(File, Suite, Processor, Place-Processor) :-
     (   mirrored(File, Suite)

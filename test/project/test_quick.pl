@@ -7,7 +7,8 @@
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(filesex),
-              [ directory_file_path/3, make_directory_path/1,
+              [ directory_file_path/3, directory_member/3,
+                make_directory_path/1,
                 set_time_file/3 ]).
 :- use_module(library(lists), [append/3, member/2, select/3]).
 :- use_module(library(plunit)).
@@ -134,6 +135,27 @@ test(file_at_the_root_touches_the_suites_of_the_project) :-
     suites(['Makefile'], Suites),
     memberchk('test/project/test_make.pl', Suites),
     \+ memberchk('test/prolog/kernel/wire/test_frame.pl', Suites).
+
+%   Programs of agents are loaded by hosts, so no suite is recorded for them.
+
+test(programs_of_agents_touch_the_suites_of_their_folder, Others == []) :-
+    findall(File-Folder,
+            ( program_in(Top, Folder, File),
+              memberchk(Top, [agents, payloads]),
+              suites([File], Suites),
+              \+ ( member(Suite, Suites),
+                   file_directory_name(Suite, Folder) ) ),
+            Others).
+
+program_in(Top, Folder, File) :-
+    member(Top, [agents, payloads]),
+    project_file(Top, Dir),
+    directory_member(Dir, Path, [recursive(true), extensions([pl])]),
+    project_file(File, Path),
+    atomic_list_concat([Top, Part|_], /, File),
+    atomic_list_concat([test, agents, Part], /, Folder),
+    project_file(Folder, Tests),
+    exists_directory(Tests).
 
 test(no_change_touches_none, Suites == []) :-
     suites([], Suites).
