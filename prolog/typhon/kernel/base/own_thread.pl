@@ -103,8 +103,10 @@ uncounted(Goal) :-
     conclude(Answer).
 
 ask_thread(Goal, Queue) :-
+    Died = exception(error(system_error('a thread died'), _)),
     catch(thread_create(typhon_own_thread:answered(alone(Goal), Queue), _,
-                        [detached(true)]),
+                        [ detached(true),
+                          at_exit(typhon_own_thread:say(Queue, Died)) ]),
           error(_, _), fail),
     !.
 ask_thread(Goal, Queue) :-
@@ -115,6 +117,12 @@ answered(Goal, Queue) :-
     ->  ( var(Error) -> Answer = true ; Answer = exception(Error) )
     ;   Answer = false
     ),
+    say(Queue, Answer).
+
+%   The first answer counts.  When the thread ends, the last one is sent, which
+%   matters only if there was no other.
+
+say(Queue, Answer) :-
     catch(thread_send_message(Queue, Answer), error(_, _), true).
 
 conclude(Status) :-

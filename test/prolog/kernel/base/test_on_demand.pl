@@ -104,6 +104,17 @@ test(watch_by_a_peer_loads_its_code, Out == "started") :-
                          [stdout(pipe(In))]), \c
           read_string(In, _, Said), write(Said), \c
           module_property(typhon_watch_senders, file(_))', Out).
+test(waiter_is_told_however_the_thread_that_loads_ends, Out == "[e,e,b,f,t]") :-
+    seen('Ends = [ thread_exit(x), (thread_self(M), thread_signal(M, abort)), \c
+                   throw(b), fail, true ], \c
+          findall(R, ( member(G, Ends), \c
+                       thread_create(( catch(typhon_own_thread:uncounted(G), \c
+                                             B, true) \c
+                                       -> ( var(B) -> W = t \c
+                                          ; B = error(_, _) -> W = e ; W = B ), \c
+                                          thread_exit(W) \c
+                                       ;  thread_exit(f) ), T), \c
+                       thread_join(T, exited(R)) ), Rs), print(Rs)', Out).
 test(many_threads_load_a_part_at_once, Out == "[true]") :-
     seen('host_start(a), \c
           findall(T, ( between(1, 8, _), \c
