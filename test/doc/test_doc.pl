@@ -23,7 +23,8 @@
 :- use_module('../lib/texts', [write_file/2, file_lines/2]).
 :- use_module('../lib/transcript', [transcript_differences/4]).
 :- use_module('../lib/documents',
-              [document/1, outside/3, points_to/2, prose/2]).
+              [document/1, outside/3, prose/2]).
+:- use_module('../../doc/site/markdown', [link_target/2]).
 :- use_module(library(apply), [exclude/3, maplist/2]).
 :- use_module(library(filesex),
               [ directory_file_path/3, directory_member/3,
@@ -136,7 +137,7 @@ run_blocks(Blocks, Terminal, Differences, Dir) :-
 
 broken_link(File, Link) :-
     prose(File, Text),
-    points_to(Text, Link),
+    link_target(Text, Link),
     \+ sub_atom(Link, _, _, _, '://'),
     \+ leads_somewhere(File, Link).
 
@@ -200,7 +201,7 @@ section(Title, Files) :-
     atomic_list_concat([Title|_], '\n', Section),
     file_directory_name(Contents, Dir),
     findall(File,
-            ( points_to(Section, Link),
+            ( link_target(Section, Link),
               directory_file_path(Dir, Link, Path),
               absolute_file_name(Path, File),
               exists_file(File) ),      % else it is of a part that is left out

@@ -4,7 +4,8 @@
 
 :- use_module('../../doc/pictures/studies', [study_picture/3]).
 :- use_module('../lib/common').
-:- use_module('../lib/documents', [document/1, points_to/2, prose/2]).
+:- use_module('../lib/documents', [document/1, prose/2]).
+:- use_module('../../doc/site/markdown', [link_target/2]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
@@ -33,7 +34,7 @@ test(all_pictures_are_made_by_one_command, Missing == []) :-
     findall(Picture,
             ( document(File),
               prose(File, Text),
-              points_to(Text, Link),
+              link_target(Text, Link),
               file_directory_name(Link, Dir),
               file_base_name(Dir, img),
               file_base_name(Link, Picture),

@@ -1,13 +1,12 @@
 :- module(test_documents,
           [ document/1,                 % -File
             prose/2,                    % +File, -Text
-            outside/3,                  % +Text, +Mark, -Outside
-            points_to/2                 % +Text, -Link
+            outside/3                   % +Text, +Mark, -Outside
           ]).
 :- use_module(common, [project_file/2]).
 :- use_module('../../doc/site/documents', [document/2]).
 
-:- use_module(library(lists), [member/2, nth0/3]).
+:- use_module(library(lists), [nth0/3]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 
 /** <module> The documents of the project
@@ -42,13 +41,3 @@ prose(File, Prose) :-
 outside(Text, Mark, Outside) :-
     atomic_list_concat(Parts, Mark, Text),
     findall(Part, ( nth0(N, Parts, Part), N mod 2 =:= 0 ), Outside).
-
-%!  points_to(+Text, -Link:atom) is nondet.
-%
-%   Text has a link to Link.
-
-points_to(Text, Link) :-
-    atomic_list_concat([_|Parts], '](', Text),
-    member(Part, Parts),
-    once(sub_atom(Part, Length, _, _, ')')),
-    sub_atom(Part, 0, Length, _, Link).
