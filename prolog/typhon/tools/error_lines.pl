@@ -277,8 +277,8 @@ extra(string(Text, Position)) -->
 extra(_) -->
     [].
 
-%   context_indicator(+PI, -Name, -Arity) is semidet: PI, that is Name/Arity, is a predicate indicator that may be in the context
-%   of an error.
+%   context_indicator(+PI, -Name, -Arity) is semidet: PI, that is Name/Arity, is
+%   a predicate indicator that may be in the context of an error.
 
 context_indicator(PI0, Name, Arity) :-
     nonvar(PI0),
