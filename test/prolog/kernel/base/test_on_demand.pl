@@ -104,7 +104,7 @@ test(watch_by_a_peer_loads_its_code, Out == "started") :-
                          [stdout(pipe(In))]), \c
           read_string(In, _, Said), write(Said), \c
           module_property(typhon_watch_senders, file(_))', Out).
-test(waiter_is_told_however_the_thread_that_loads_ends, Out == "[e,e,b,f,t]") :-
+test(waiting_thread_is_answered_however_the_load_ends, Out == "[e,e,b,f,t]") :-
     seen('Ends = [ thread_exit(x), (thread_self(M), thread_signal(M, abort)), \c
                    throw(b), fail, true ], \c
           findall(R, ( member(G, Ends), \c
