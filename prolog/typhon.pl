@@ -58,7 +58,7 @@ a folder, with an interface of the same name beside it:
               fipa_stop/1 ]).
 :- use_module(typhon/kernel/vocabulary, []).
 :- use_module(typhon/options/migration, []).
-:- use_module(typhon/tools/error_lines, []).
+:- use_module(typhon/kernel/base/error_lines, []).
 :- use_module(typhon/tools/messages, []).
 :- use_module(typhon/tools/problem_text, []).
 :- use_module(typhon/tools/event_text, []).

@@ -22,7 +22,7 @@ has been printed if the network does not answer.
 :- use_module('../../prolog/typhon/kernel/base/monotonic',
               [monotonic_time/1, wait_within/2]).
 :- use_module('../../prolog/typhon', [host_property/2]).
-:- use_module('../../prolog/typhon/tools/error_lines', [error_text/2]).
+:- use_module('../../prolog/typhon/kernel/base/error_lines', [error_text/2]).
 :- use_module('../../prolog/typhon/kernel/base/text', [format_shown/2]).
 :- use_module('../../prolog/typhon/kernel/host/hosts', [address_parts/3]).
 :- use_module('../../prolog/typhon/kernel/wire',

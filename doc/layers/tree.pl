@@ -303,7 +303,7 @@ reach(Part, Module, Name/Arity) :-
 %   The folders below prolog/typhon that are layers, the lowest first: a layer
 %   imports from layers before it.
 
-layers([ 'kernel/base', 'tools/error_lines', 'bridges/json',
+layers([ 'kernel/base', 'bridges/json',
          'bridges/helper', 'bridges/nxt', 'kernel/program', 'language/chunks', language, 'kernel/wire',
          'kernel/host', 'kernel/agent', 'language/faults', 'kernel/travel',
          'kernel/lifecycle', 'kernel/vocabulary', 'options/payloads',

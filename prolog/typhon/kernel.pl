@@ -30,7 +30,7 @@ a Prolog with threads it is library(typhon) without its top level.
             ]).
 :- use_module(kernel/vocabulary, []).
 :- use_module(options/migration, []).
-:- use_module(tools/error_lines, []).
+:- use_module(kernel/base/error_lines, []).
 :- use_module(tools/messages, []).
 :- use_module(tools/problem_text, []).
 :- use_module(tools/event_text, []).

@@ -9,7 +9,7 @@
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../kernel/base/error_text', [print_error/2]).
-:- use_module('../tools/error_lines', [error_text/2]).
+:- use_module('../kernel/base/error_lines', [error_text/2]).
 :- use_module('../kernel/base/process_setup',
               [on_stop_signals/1, process_setup/0]).
 :- use_module('../kernel/base/durable', [durable_on/0]).

@@ -25,7 +25,7 @@
 :- use_module('../kernel/base/fifo', [fifo_send/2]).
 :- use_module('../kernel/base/monotonic',
               [ monotonic_time/1, poll_within/2, wait_within/2 ]).
-:- use_module('../tools/error_lines', [harmless_error/2]).
+:- use_module('../kernel/base/error_lines', [harmless_error/2]).
 :- use_module('../kernel/wire', [endpoint_address/1, endpoint_request/4]).
 :- use_module(children, [child_secret/1]).
 :- use_module(node_process, [order_do/2]).

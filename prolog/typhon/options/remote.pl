@@ -4,7 +4,7 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [must_be/2, permission_error/3]).
-:- use_module('../tools/error_lines', [harmless_error/2]).
+:- use_module('../kernel/base/error_lines', [harmless_error/2]).
 :- use_module('../kernel/wire', [endpoint_reply/2, mobile_term/1]).
 :- use_module('../kernel/host',
               [ host/3, host_option/2, host_resolve/2, host_unknown/1,

@@ -3,7 +3,7 @@
 :- use_module('../../lib/fixtures').
 :- use_module('../../lib/peers').
 :- use_module('../../../prolog/typhon/kernel/base/error_text').
-:- use_module('../../../prolog/typhon/tools/error_lines').
+:- use_module('../../../prolog/typhon/kernel/base/error_lines').
 :- use_module('../../../prolog/typhon/kernel/agent', [is_printable/1]).
 :- use_module(library(plunit)).
 :- use_module(library(lists), [member/2, numlist/3]).

@@ -21,7 +21,7 @@
 :- use_module('../host',
               [address_parts/3, process_ask/6, time_now/1, time_wait/3]).
 :- use_module('../agent', [agent/5, agent_home_endpoint/2, agent_name/3]).
-:- use_module('../../tools/error_lines', [harmless_error/2]).
+:- use_module('../base/error_lines', [harmless_error/2]).
 :- use_module('../travel',
               [agent_outcome/2, ended_agent/1, home_agents/1, whereabouts/2]).
 

@@ -9,7 +9,7 @@
 :- use_module(library(http/websocket), [http_upgrade_to_websocket/3]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../error_lines', [error_text/2]).
+:- use_module('../../kernel/base/error_lines', [error_text/2]).
 :- use_module('../../bridges/json', [json_dict/2, json_text/2]).
 :- use_module('../../bridges/common',
               [ client_becomes/1, http_before/2, http_deadline/2,

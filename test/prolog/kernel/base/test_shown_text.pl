@@ -2,7 +2,7 @@
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/fixtures').
 :- use_module('../../../lib/peers').
-:- use_module('../../../../prolog/typhon/tools/error_lines').
+:- use_module('../../../../prolog/typhon/kernel/base/error_lines').
 :- use_module('../../../../prolog/typhon/kernel/base/text').
 :- use_module(library(plunit)).
 :- use_module(library(debug)).

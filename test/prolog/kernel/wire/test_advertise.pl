@@ -11,7 +11,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/tools/error_lines), [error_text/2]).
+:- use_module(library(typhon/kernel/base/error_lines), [error_text/2]).
 :- use_module(library(typhon/kernel/wire/addresses), [endpoint_parts/3]).
 
 elsewhere(Options) :-

@@ -3,9 +3,9 @@
             harmless_error/2            % +Ball0, -Ball
           ]).
 :- use_module(library(lists), [append/3, member/2]).
-:- use_module('../kernel/base/error_text',
+:- use_module(error_text,
               [is_abort/1, is_remark/1, is_tree/2, large_text/2]).
-:- use_module('../kernel/base/text', [shown_lines/2]).
+:- use_module(text, [shown_lines/2]).
 
 /** <module> Texts of errors of ISO and SWI-Prolog
 
@@ -30,7 +30,7 @@ Some of these call parts of an error; harmless_error/2 finds such errors.
 
 :- module_property(typhon_error_lines, file(Source)),
    file_directory_name(Source, Dir),
-   absolute_file_name('../../..', Root,
+   absolute_file_name('../../../..', Root,
                       [relative_to(Dir), file_type(directory)]),
    retractall(library(_)),
    assertz(library(Root)).
