@@ -13,6 +13,7 @@ a folder, with an interface of the same name beside it:
   | networks, the log server        | typhon/network           |
   | agents, event by event          | typhon/options/trace     |
   | events, as they happen          | typhon/options/watch     |
+  | fleets                          | typhon/options/fleet     |
   | tables at the top level, help/1 | typhon/tools/environment |
   | a page for a browser            | typhon/tools/page        |
   | Python, MQTT, ROS, FIPA         | typhon/bridges           |
@@ -50,6 +51,9 @@ a folder, with an interface of the same name beside it:
             [ network_start/3, network_stop/1, network_property/2,
               network_advance/2, network_at/3, network_save/2, network_load/3,
               log_server_start/2, log_server_stop/1, log_events/2 ]).
+:- reexport(typhon/options/fleet,
+            [ fleet_join/2, fleet_leave/1, fleet_hosts/3, fleet_watch/3,
+              fleet_unwatch/1 ]).
 :- reexport(typhon/tools/environment, [agents/0, hosts/0]).
 :- reexport(typhon/tools/page, [page_start/1, page_stop/0]).
 :- reexport(typhon/bridges/common/starting,

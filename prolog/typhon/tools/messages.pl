@@ -76,6 +76,17 @@ prolog:error_message(existence_error(agent, Agent)) -->
 prolog:error_message(existence_error(agent, Agent)) -->
     [ 'There is no agent ~p'-[Agent] ],
     meant(agent, Agent).
+prolog:error_message(existence_error(fleet, any(Tag))) -->
+    [ 'any(~p) chooses a host of a fleet, and this process has not joined one: \c
+       see fleet_join/2'-[Tag] ].
+prolog:error_message(existence_error(fleet, Fleet)) -->
+    [ 'This process has not joined a fleet ~p: see fleet_join/2'-[Fleet] ],
+    meant(fleet, Fleet).
+prolog:error_message(existence_error(tag, Tag)) -->
+    [ 'No host has the tag ~p'-[Tag] ],
+    meant(tag, Tag).
+prolog:error_message(resource_error(hosts(Tag))) -->
+    [ 'All hosts with the tag ~p are away'-[Tag] ].
 prolog:error_message(ambiguous_agent(Name, Ids)) -->
     { atomic_list_concat(Ids, ', ', Text) },
     [ 'Several agents are called ~w: ~w'-[Name, Text] ].

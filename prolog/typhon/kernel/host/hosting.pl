@@ -48,6 +48,7 @@ endpoint with the other users of the process, see typhon_runtime.
 
 :- multifile
     begins/1,                   % Name: the host exists, listeners may register
+    started/1,                  % Name: host_start/2 is about to return
     starts/2,                   % Name, Options: an option has started the host
     closes/1,                   % Name: the host admits agents no more
     evacuate/2.                 % Name, Deadline: end all agents on the host
@@ -131,7 +132,8 @@ host_start(Name, Options) :-
     check_options(host_option, Options),
     parts_load(Options),
     forall(typhon_host_parts:check(Options), true),
-    with_mutex(typhon_hosting, start(Name, Options)).
+    with_mutex(typhon_hosting, start(Name, Options)),
+    forall(started(Name), true).
 
 start(Name, Options) :-
     starts(Name, Options),

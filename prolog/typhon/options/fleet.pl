@@ -1,0 +1,98 @@
+:- module(typhon_fleets,
+          [ fleet_join/2,               % +Fleet, +Options
+            fleet_leave/1,              % +Fleet
+            fleet_hosts/3,              % +Fleet, -Hosts, +Options
+            fleet_watch/3,              % +Fleet, :OnChange, -Watch
+            fleet_unwatch/1             % +Watch
+          ]).
+:- use_module(library(error), [existence_error/2, must_be/2]).
+:- use_module(fleet/fleet_words, []).
+:- autoload('fleet/fleet_watches', [unwatch_fleet/1, watch_fleet/3]).
+:- autoload('fleet/members', [join_fleet/2, leave_fleet/1]).
+:- autoload('fleet/tags', [hosts_of_fleet/3]).
+
+/** <module> Fleets: hosts on many machines, which come, vanish and come back
+
+The members of a fleet are processes that have joined it.  What they know of
+each other is in an engine, a server of Redis or Valkey: members and their
+leases, hosts with tags, where agents are and how they ended, agents and
+messages that wait for a host, and journals.  Agents hop directly, and no hop
+waits for the engine.
+
+This is the interface of the layer; its modules are loaded when they are used.
+
+*Threading*: any thread that may wait.
+*/
+
+:- meta_predicate fleet_watch(+, :, -).
+
+%!  fleet_join(+Fleet, +Options) is det.
+%
+%   This process becomes a member of Fleet.  Its hosts with the option
+%   fleet(Fleet) are known to all members from now on.  Options:
+%
+%     - redis(Host:Port): the engine; or sentinel(Name) and sentinels(List), the
+%       addresses of sentinels that know it
+%     - user(User), password(Password): default user is `default`
+%     - tls(true), with cacert(File), key(File), cert(File); the name of the
+%       server is not compared with its certificate
+%     - lease(Seconds): a member that is silent for so long is away; default 3
+%     - report(Seconds): how often it is reported where agents are; default 1
+%     - fsync(When): `always` if the engine confirms nothing that it could lose,
+%       or `everysec`, the default
+%     - recover(Bool): this process opens the journals of members that have gone
+%
+%   @error permission_error(join, fleet, Fleet): it is a member already
+%   @error existence_error(option, redis), domain_error(fleet_option, Option)
+%   @error resource_error(fleet(Fleet)): the engine does not answer
+%   @error permission_error(authenticate, fleet, Fleet)
+
+fleet_join(Fleet, Options) :-
+    join_fleet(Fleet, Options).
+
+%!  fleet_leave(+Fleet) is det.
+%
+%   This process is no member any more; the end of Prolog does the same.  Its
+%   hosts go on, and others do not find them in Fleet.
+%
+%   @error existence_error(fleet, Fleet)
+
+fleet_leave(Fleet) :-
+    leave_fleet(Fleet).
+
+%!  fleet_hosts(+Fleet, -Hosts:list, +Options) is det.
+%
+%   Hosts are the addresses of hosts in Fleet, the least loaded first.  Options:
+%
+%     - tag(Tag): hosts with this tag; or with all of a list of tags
+%     - state(State): `up`, or `away` if the lease of the process has lapsed
+%     - near(Host): hosts that Host has links to come first, then those on the
+%       same machine
+%
+%   @error existence_error(fleet, Fleet), resource_error(fleet(Fleet))
+%   @error existence_error(tag, Tag): no host ever had it
+%   @error domain_error(fleet_hosts_option, Option)
+
+fleet_hosts(Fleet, Hosts, Options) :-
+    hosts_of_fleet(Fleet, Hosts, Options).
+
+%!  fleet_watch(+Fleet, :OnChange, -Watch) is det.
+%
+%   Call call(OnChange, Change) for each change of Fleet from now on, one after
+%   the other, in a thread of Watch.  Change is joined(Host), away(Host),
+%   back(Host) or left(Host), with the address of a host.  Failure of a call is
+%   ignored, an exception is printed, and the watch goes on.
+%
+%   @error existence_error(fleet, Fleet), resource_error(fleet(Fleet))
+
+fleet_watch(Fleet, OnChange, Watch) :-
+    strip_module(OnChange, _, Plain),
+    must_be(callable, Plain),
+    watch_fleet(Fleet, OnChange, Watch).
+
+%!  fleet_unwatch(+Watch) is det.
+%
+%   @error existence_error(fleet_watch, Watch)
+
+fleet_unwatch(Watch) :-
+    unwatch_fleet(Watch).

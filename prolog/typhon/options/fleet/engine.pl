@@ -1,0 +1,356 @@
+:- module(typhon_engine,
+          [ engine_open/2,              % +Fleet, +Options
+            engine_close/1,             % +Fleet
+            engine_option/2,            % +Fleet, ?Option
+            engine/3,                   % +Fleet, +Command, -Reply
+            engine_script/4,            % +Fleet, +Script, +Args, -Reply
+            engine_run_id/2,            % +Fleet, -Id
+            engine_key/3                % +Fleet, +Names, -Key
+          ]).
+:- use_module(library(apply), [include/3]).
+:- use_module(library(error), [existence_error/2]).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(option), [option/2, option/3]).
+:- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(library(redis),
+              [redis/3, redis_connect/3, redis_disconnect/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module(library(sha), [hash_atom/2, sha_hash/3]).
+:- use_module('../../kernel/base/monotonic',
+              [deadline/2, monotonic_time/1, wait_within/2]).
+
+/** <module> The engine of a fleet: a server of Redis
+
+library(redis) as fleets need it: every call ends in time, with an answer or an
+error.  That library waits for ever for a server that is suspended, so a thread
+of its own connects, and streams have a limit.  It also repeats commands after
+errors; here only scripts and questions are repeated, which decide by what is
+stored.  Texts in answers are strings: "007" would be 7 otherwise.
+
+What an engine decides in one step is a script in Lua, `scripts/NAME.lua`, after
+`scripts/head.lua`.  Its first argument is the prefix of all keys of the fleet,
+whose braces keep them on one node of a cluster.
+
+*Threading*: any thread.  A connection that no call uses waits in the queue of
+its fleet.
+*/
+
+:- multifile prolog:error_message//1.
+
+:- setting(typhon_fleet:engine_seconds, number, 2,
+           "Seconds after which an engine that does not answer counts as down").
+:- setting(typhon_fleet:engine_pause, number, 0.5,
+           "Seconds for which an engine that is down is not asked again").
+
+:- dynamic
+    server/3,                   % Fleet, Idle, Options
+    down/3,                     % Fleet, Until, Why
+    text/3.                     % Script, Sha, Text
+
+                /*******************************
+                *         CONNECTIONS          *
+                *******************************/
+
+%!  engine_open(+Fleet, +Options) is det.
+%!  engine_close(+Fleet) is det.
+%!  engine_option(+Fleet, ?Option) is nondet.
+%
+%   Options: redis(Host:Port), or sentinel(Name) and sentinels(Addresses);
+%   user(User), password(Password), tls(true), cacert(File), key(File),
+%   cert(File).
+%
+%   @error resource_error(fleet(Fleet)): the engine does not answer
+%   @error permission_error(authenticate, fleet, Fleet)
+
+engine_open(Fleet, Options) :-
+    message_queue_create(Idle),
+    assertz(server(Fleet, Idle, Options)),
+    catch(engine(Fleet, ping, _), Ball,
+          ( engine_close(Fleet), throw(Ball) )).
+
+engine_close(Fleet) :-
+    (   retract(server(Fleet, Idle, _))
+    ->  close_idle(Idle),
+        message_queue_destroy(Idle),
+        retractall(down(Fleet, _, _))
+    ;   true
+    ).
+
+engine_option(Fleet, Option) :-
+    server(Fleet, _, Options),
+    member(Option, Options).
+
+close_idle(Idle) :-
+    (   thread_get_message(Idle, connection(C), [timeout(0)])
+    ->  disconnect(C),
+        close_idle(Idle)
+    ;   true
+    ).
+
+disconnect(C) :-
+    catch(redis_disconnect(C, [force(true)]), error(_, _), true).
+
+%   taken(+Fleet, -C, -Age): a connection, `old` if it was used before.  If none
+%   is idle a thread makes one; at most three do so at a time, because the system
+%   may take minutes to report that a machine is not there.
+
+taken(Fleet, C, Age) :-
+    (   server(Fleet, Idle, Options)
+    ->  true
+    ;   existence_error(fleet, Fleet)
+    ),
+    is_up(Fleet),
+    (   thread_get_message(Idle, connection(C), [timeout(0)])
+    ->  Age = old
+    ;   Age = new,
+        connect_in_thread(Fleet, Idle, Options),
+        setting(typhon_fleet:engine_seconds, Seconds),
+        (   wait_within(Seconds, thread_get_message(Idle, Got))
+        ->  got(Got, Fleet, C)
+        ;   goes_down(Fleet, 'it does not answer')
+        )
+    ).
+
+is_up(Fleet) :-
+    (   down(Fleet, Until, Why),
+        monotonic_time(Now),
+        Now < Until
+    ->  unreachable(Fleet, Why)
+    ;   true
+    ).
+
+got(connection(C), _, C).
+got(failed(Why), Fleet, _) :-
+    failed(Why, Fleet).
+
+failed(wrong_password, Fleet) :-
+    throw(error(permission_error(authenticate, fleet, Fleet), _)).
+failed(down(Why), Fleet) :-
+    goes_down(Fleet, Why).
+
+goes_down(Fleet, Why) :-
+    setting(typhon_fleet:engine_pause, Pause),
+    deadline(Pause, Until),
+    retractall(down(Fleet, _, _)),
+    assertz(down(Fleet, Until, Why)),
+    unreachable(Fleet, Why).
+
+unreachable(Fleet, Why) :-
+    throw(error(resource_error(fleet(Fleet)), context(_, Why))).
+
+connect_in_thread(Fleet, Idle, Options) :-
+    ignore(( between(1, 3, N),
+             atomic_list_concat([typhon_engine, Fleet, N], '_', Alias),
+             catch(thread_create(typhon_engine:connect_for(Idle, Options), _,
+                                 [alias(Alias), detached(true)]),
+                   error(permission_error(create, thread, _), _), fail) )).
+
+connect_for(Idle, Options) :-
+    catch(( connected(Options, C), Result = connection(C) ),
+          error(Formal, _),
+          ( why(Formal, Why), Result = failed(Why) )),
+    catch(thread_send_message(Idle, Result), error(_, _),
+          ( Result = connection(Late) -> disconnect(Late) ; true )).
+
+connected(Options, C) :-
+    address(Options, Address),
+    include(is_tls, Options, Tls),
+    redis_connect(Address, C, [reconnect(false)|Tls]),
+    catch(greeted(C, Options), Ball, ( disconnect(C), throw(Ball) )).
+
+is_tls(Option) :-
+    functor(Option, Name, 1),
+    memberchk(Name, [tls, cacert, key, cert]).
+
+%   redis_connect/3 would greet before a limit can be set, and gives a password
+%   only with a user.
+
+greeted(C, Options) :-
+    limit(C),
+    (   option(password(Password), Options)
+    ->  option(user(User), Options, default),
+        redis(C, hello(3, auth, User, Password), _)
+    ;   redis(C, hello(3), _)
+    ).
+
+limit(C) :-
+    arg(_, C, Stream),
+    is_stream(Stream),
+    !,
+    setting(typhon_fleet:engine_seconds, Seconds),
+    set_stream(Stream, timeout(Seconds)).
+
+address(Options, Address) :-
+    option(redis(Address), Options),
+    !.
+address(Options, Host:Port) :-
+    option(sentinel(Pool), Options),
+    option(sentinels(Sentinels), Options),
+    member(Sentinel, Sentinels),
+    catch(master(Sentinel, Pool, Host, Port), error(_, _), fail),
+    !.
+address(_, _) :-
+    throw(error(existence_error(sentinel, any), _)).
+
+master(Sentinel, Pool, Host, Port) :-
+    redis_connect(Sentinel, C, [reconnect(false)]),
+    call_cleanup(( limit(C),
+                   redis(C, sentinel('get-master-addr-by-name', Pool),
+                         [Host0, Port0] as string) ),
+                 disconnect(C)),
+    atom_string(Host, Host0),
+    number_string(Port, Port0).
+
+                /*******************************
+                *             CALLS            *
+                *******************************/
+
+%!  engine(+Fleet, +Command, -Reply) is semidet.
+%
+%   Reply has strings, numbers, lists and pairs.  Fails if it is nil.  After an
+%   error it is not known whether the engine has executed Command.
+%
+%   @error existence_error(fleet, Fleet), resource_error(fleet(Fleet))
+%   @error resource_error(fleet_space(Fleet)): the engine has no space left
+%   @error redis_error(Code, Text): Command is wrong
+
+engine(Fleet, Command, Reply) :-
+    taken(Fleet, C, Age),
+    call_cleanup(asked(C, Command, Answer), give_back(Answer, Fleet, C)),
+    answer(Answer, Age, Fleet, Command, Reply).
+
+asked(C, Command, Answer) :-
+    catch(( redis(C, Command, Reply as string)
+          -> Answer = reply(Reply)
+          ;  Answer = nil ),
+          error(Formal, _),
+          answer_of(Formal, Answer)).
+
+answer_of(redis_error(Code, Text), Answer) :-
+    !,
+    (   means_down(Code)
+    ->  Answer = broken(down(Text))
+    ;   means_full(Code)
+    ->  Answer = full(Text)
+    ;   Answer = error(redis_error(Code, Text))
+    ).
+answer_of(timeout_error(_, _), broken(down('it does not answer'))) :-
+    !.
+answer_of(Formal, stale(Why)) :-
+    why(Formal, Why).
+
+means_down(Code) :-
+    memberchk(Code, [ loading, readonly, masterdown, busy, clusterdown, tryagain,
+                      noreplicas ]).
+
+means_full(Code) :-
+    memberchk(Code, [misconf, oom]).
+
+why(redis_error(Code, _), wrong_password) :-
+    memberchk(Code, [wrongpass, noauth, noperm]),
+    !.
+why(redis_error(_, Text), down(Text)) :-
+    !.
+why(Formal, down(Why)) :-
+    format(atom(Why), '~p', [Formal]).
+
+give_back(Answer, Fleet, C) :-
+    (   nonvar(Answer),
+        \+ functor(Answer, broken, 1),
+        \+ functor(Answer, stale, 1),
+        server(Fleet, Idle, _),
+        catch(thread_send_message(Idle, connection(C)), error(_, _), fail)
+    ->  true
+    ;   disconnect(C)
+    ).
+
+%   A connection that breaks when it is used again is older than the engine.
+
+answer(reply(Reply), _, _, _, Reply).
+answer(error(Formal), _, _, _, _) :-
+    throw(error(Formal, _)).
+answer(full(Text), _, Fleet, _, _) :-
+    throw(error(resource_error(fleet_space(Fleet)), context(_, Text))).
+answer(stale(_), old, Fleet, Command, Reply) :-
+    !,
+    ignore(( server(Fleet, Idle, _), close_idle(Idle) )),
+    engine(Fleet, Command, Reply).
+answer(stale(Why), new, Fleet, _, _) :-
+    failed(Why, Fleet).
+answer(broken(Why), _, Fleet, _, _) :-
+    failed(Why, Fleet).
+
+%!  engine_script(+Fleet, +Script:atom, +Args:list, -Reply) is semidet.
+%
+%   Call `scripts/Script.lua` with the prefix of the keys of Fleet and Args, in
+%   one step of the engine.  It may be called twice.
+
+engine_script(Fleet, Script, Args, Reply) :-
+    script(Script, Sha, Text),
+    engine_key(Fleet, [''], Prefix),
+    ByHash =.. [evalsha, Sha, 0, Prefix|Args],
+    catch(( engine(Fleet, ByHash, Reply0) -> Found = true ; Found = false ),
+          error(redis_error(noscript, _), _),
+          Found = new),
+    (   Found == new
+    ->  Whole =.. [eval, Text, 0, Prefix|Args],
+        engine(Fleet, Whole, Reply)
+    ;   Found == true,
+        Reply = Reply0
+    ).
+
+script(Script, Sha, Text) :-
+    text(Script, Sha, Text),
+    !.
+script(Script, Sha, Text) :-
+    lua(head, Head),
+    lua(Script, Body),
+    string_concat(Head, Body, Text),
+    sha_hash(Text, Hash, [encoding(utf8)]),
+    hash_atom(Hash, Sha),
+    assertz(text(Script, Sha, Text)).
+
+lua(Script, Text) :-
+    module_property(typhon_engine, file(Here)),
+    file_directory_name(Here, Directory),
+    format(atom(Relative), 'scripts/~w.lua', [Script]),
+    directory_file_path(Directory, Relative, File),
+    read_file_to_string(File, Text, [encoding(utf8)]).
+
+%!  engine_run_id(+Fleet, -Id:atom) is det.
+%
+%   Id changes when the engine is started again.
+
+engine_run_id(Fleet, Id) :-
+    engine(Fleet, info(server), Text),
+    split_string(Text, "\n", "\r ", Lines),
+    member(Line, Lines),
+    string_concat("run_id:", Id0, Line),
+    !,
+    atom_string(Id, Id0).
+
+%!  engine_key(+Fleet, +Names:list, -Key:atom) is det.
+
+engine_key(Fleet, Names, Key) :-
+    atomic_list_concat(['f:{', Fleet, '}'], Prefix),
+    atomic_list_concat([Prefix|Names], :, Key).
+
+                /*******************************
+                *            MESSAGES          *
+                *******************************/
+
+prolog:error_message(resource_error(fleet(Fleet))) -->
+    { server(Fleet, _, Options),
+      ( option(redis(At), Options) ; option(sentinel(At), Options) ),
+      !
+    },
+    [ 'The engine of the fleet ~w, Redis at ~w, cannot be reached'-
+      [Fleet, At] ].
+prolog:error_message(resource_error(fleet(Fleet))) -->
+    [ 'The engine of the fleet ~w cannot be reached'-[Fleet] ].
+prolog:error_message(resource_error(fleet_space(Fleet))) -->
+    [ 'The engine of the fleet ~w has no space left'-[Fleet] ].
+prolog:error_message(permission_error(authenticate, fleet, Fleet)) -->
+    [ 'The engine of the fleet ~w does not accept the user and password: \c
+       check user(User) and password(Password), and its ACL'-[Fleet] ].
