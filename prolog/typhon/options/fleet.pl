@@ -5,7 +5,7 @@
             fleet_watch/3,              % +Fleet, :OnChange, -Watch
             fleet_unwatch/1             % +Watch
           ]).
-:- use_module(library(error), [existence_error/2, must_be/2]).
+:- use_module(library(error), [must_be/2]).
 :- use_module(fleet/fleet_words, []).
 :- autoload('fleet/fleet_watches', [unwatch_fleet/1, watch_fleet/3]).
 :- autoload('fleet/members', [join_fleet/2, leave_fleet/1]).

@@ -88,13 +88,8 @@ watch(Watch, Fleet, Last, OnChange) :-
     ).
 
 pause :-
-    ignore(wait_within(0.5, typhon_fleet_watches:stopped)).
-
-:- public stopped/1.
-
-stopped(Options) :-
     thread_self(Me),
-    thread_get_message(Me, stop, Options).
+    ignore(wait_within(0.5, thread_get_message(Me, stop))).
 
 tell(OnChange, What0, Host0) :-
     atom_string(What, What0),

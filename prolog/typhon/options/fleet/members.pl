@@ -7,7 +7,6 @@
             must_be_fleet/1,            % +Fleet
             fleet_tell/2                % +Fleet, +Message
           ]).
-:- use_module(library(apply), [maplist/3]).
 :- use_module(library(error), [existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(lists), [append/2, append/3, member/2]).
 :- use_module(library(option), [option/2, option/3]).
@@ -86,7 +85,8 @@ join(Fleet, _) :-
     permission_error(join, fleet, Fleet).
 join(Fleet, Options) :-
     engine_open(Fleet, Options),
-    catch(( server_start(fleet, typhon_members:handle(Fleet), none, Server),
+    catch(( server_start(fleet, typhon_members:handle(Fleet, Options), none,
+                          Server),
             assertz(fleet(Fleet, Server, Options)) ),
           Ball,
           ( engine_close(Fleet), throw(Ball) )).
@@ -195,8 +195,8 @@ typhon_host_parts:ends(_) :-
 
 typhon_hosting:started(Host) :-
     (   host_option(Host, fleet(Fleet)),
-        fleet(Fleet, Server, _)
-    ->  lease(Fleet, Seconds),
+        fleet(Fleet, Server, Options)
+    ->  lease(Options, Seconds),
         (   server_call(Server, registered, Seconds, true)
         ->  true
         ;   print_message(warning, typhon(fleet_later(Host, Fleet)))
@@ -204,8 +204,7 @@ typhon_hosting:started(Host) :-
     ;   true
     ).
 
-lease(Fleet, Seconds) :-
-    fleet(Fleet, _, Options),
+lease(Options, Seconds) :-
     option(lease(Seconds), Options, 3).
 
                 /*******************************
@@ -214,13 +213,13 @@ lease(Fleet, Seconds) :-
 
 %   The state is due(Beat, Report), the times of the next ones.
 
-handle(Fleet, Message, State0, State) :-
+handle(Fleet, Options, Message, State0, State) :-
     (   Message == begin
     ->  monotonic_time(Now),
         State1 = due(Now, Now)
     ;   State1 = State0
     ),
-    handled(Message, Fleet, State1, State2),
+    handled(Message, Fleet, Options, State1, State2),
     (   Message == stop
     ->  State = State2
     ;   State2 = due(Beat, Report),
@@ -228,30 +227,31 @@ handle(Fleet, Message, State0, State) :-
         State = until(Next, State2)
     ).
 
-handled(begin, _, State, State).
-handled(timeout, Fleet, due(Beat0, Report0), due(Beat, Report)) :-
+handled(begin, _, _, State, State).
+handled(timeout, Fleet, Options, due(Beat0, Report0), due(Beat, Report)) :-
     monotonic_time(Now),
     (   Now >= Beat0
-    ->  beat(Fleet, Beat)
+    ->  beat(Fleet, Options, Beat)
     ;   Beat = Beat0
     ),
     (   Now >= Report0
-    ->  report(Fleet, Now, Report)
+    ->  report(Fleet, Options, Report)
     ;   Report = Report0
     ).
-handled(beat, Fleet, due(_, Report), due(Beat, Report)) :-
-    beat(Fleet, Beat).
-handled(call(registered, Caller), Fleet, due(_, Report), due(Beat, Report)) :-
-    beat(Fleet, Beat),
+handled(beat, Fleet, Options, due(_, Report), due(Beat, Report)) :-
+    beat(Fleet, Options, Beat).
+handled(call(registered, Caller), Fleet, Options, due(_, Report),
+        due(Beat, Report)) :-
+    beat(Fleet, Options, Beat),
     (   member(Fleet, _, _, _)
     ->  Known = true
     ;   Known = false
     ),
     server_answer(Caller, Known).
-handled(stop, Fleet, State, State) :-
+handled(stop, Fleet, _, State, State) :-
     quietly(reports(Fleet)),
     quietly(gives_back(Fleet)).
-handled(order(Order), Fleet, State, State) :-
+handled(order(Order), Fleet, _, State, State) :-
     quietly(order(Order, Fleet)).
 
 %   An engine that does not answer is no news: all is tried again.
@@ -264,10 +264,10 @@ quietly(Goal) :-
 
 %   A report takes at most a sixth of the time.
 
-report(Fleet, Start, Next) :-
+report(Fleet, Options, Next) :-
+    monotonic_time(Start),
     quietly(reports(Fleet)),
     monotonic_time(Now),
-    fleet(Fleet, _, Options),
     option(report(Each), Options, 1),
     Next is max(Now+Each, Now+5*(Now-Start)).
 
@@ -275,13 +275,13 @@ reports(Fleet) :-
     member(Fleet, _, _, _),
     forall(work(Fleet), true).
 
-beat(Fleet, Next) :-
-    lease(Fleet, Lease),
+beat(Fleet, Options, Next) :-
+    lease(Options, Lease),
     Third is Lease/3,
     deadline(Third, Next),
-    quietly(beat(Fleet)).
+    quietly(beat(Fleet, Options)).
 
-beat(Fleet) :-
+beat(Fleet, Options) :-
     findall(Host, known_host(Fleet, Host), Hosts),
     endpoint_address(Endpoint),
     Hosts \== [],
@@ -291,8 +291,9 @@ beat(Fleet) :-
     ->  gives_back(Fleet)
     ;   true
     ),
-    beat(Fleet, Endpoint, Hosts).
-beat(Fleet) :-
+    lease(Options, Lease),
+    beat(Fleet, Lease, Endpoint, Hosts).
+beat(Fleet, _) :-
     gives_back(Fleet).
 
 known_host(Fleet, [Address,Load,Count|Tags]) :-
@@ -301,13 +302,12 @@ known_host(Fleet, [Address,Load,Count|Tags]) :-
     host_load(Host, Load),
     length(Tags, Count).
 
-beat(Fleet, Endpoint, Hosts) :-
+beat(Fleet, Lease, Endpoint, Hosts) :-
     (   member(Fleet, Endpoint, Token, _)
     ->  First = 0
     ;   Token is random(1<<60),
         First = 1
     ),
-    lease(Fleet, Lease),
     Ttl is integer(1000*Lease),
     ( stands_at(Endpoint, At) -> true ; At = Endpoint ),
     current_prolog_flag(pid, Pid),

@@ -1,7 +1,6 @@
 :- module(typhon_fleet_tags,
           [ hosts_of_fleet/3            % +Fleet, -Hosts, +Options
           ]).
-:- use_module(library(apply), [include/3]).
 :- use_module(library(error), [existence_error/2, must_be/2, resource_error/1]).
 :- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(option), [option/2, option/3]).
