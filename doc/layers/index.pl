@@ -34,6 +34,9 @@ indexed(typhon_agents:carries/3, carries, carries(Name, _, _), Name).
 indexed(typhon_orders:carried_out/3, order, carried_out(Order, _, _), Kind) :-
     callable(Order),
     functor(Order, Kind, _).
+indexed(typhon_hosts:one_of/2, description, one_of(Description, _), Kind) :-
+    callable(Description),
+    functor(Description, Kind, _).
 indexed(typhon_time:starts/1, time, starts(Kind), Kind).
 indexed(typhon_durable:durable/5, durable, durable(Kind, _, _, _, _), Kind).
 indexed(typhon_durable:durable/6, durable, durable(Kind, _, _, _, _, _), Kind).

@@ -41,19 +41,21 @@ A link is recorded in one direction; the other host records the other.
 
 host_resolve/2 maps the name or address that a caller gives to the location of
 the host. A bare name is looked up first in this process, and then in the other
-processes of the networks that this process started.
+processes of the networks that this process started. For any(Tags) an option
+chooses a host, by the hook one_of/2.
 
 *Threading*: any thread; a mutex for changes of links.  The counts are flags,
 which many threads change without leaving garbage, under one mutex: flag/3
 would lock for each of them.
 */
 
-:- use_module(library(apply), [maplist/3]).
-:- use_module(library(error), [existence_error/2, must_be/2]).
+:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(error), [existence_error/2, is_of_type/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/bounds', [memory_short/1]).
 :- use_module('../base/durable',
               [durable/6, durable_drop/3, durable_on/0, durable_put/4]).
+:- use_module('../base/on_demand', [on_demand_load/2]).
 :- use_module('../base/monotonic', [monotonic_time/1]).
 :- use_module('../base/text', [is_printable/1]).
 :- use_module('../wire',
@@ -76,6 +78,7 @@ would lock for each of them.
 :- multifile
     elsewhere/2,                        % ?Name, -Address: a host of a network that
                                         % this process started
+    one_of/2,                           % Description, Address: choose a host
     typhon_names:known/2,
     prolog:error_message//1,
     error:has_type/2.
@@ -638,17 +641,20 @@ is_address(Address, Name, Endpoint) :-
 %!  host_resolve(+Host, -Where) is det.
 %
 %   Where is local(Name) or remote(Address, Name, Endpoint).  Host is an
-%   address, the name of a host of this process, or a name that only one host
-%   of the networks that this process started has.
+%   address, the name of a host of this process, a name that only one host
+%   of the networks that this process started has, or any(Tags), Tags a tag or
+%   a list of tags.  Each call for any(Tags) may choose another host.
 %
 %   @error existence_error(host, Host)
+%   @error errors of one_of/2
 %   @error domain_error(endpoint_address, Endpoint) of an address
 %   @error ambiguous_host(Name, Addresses)
 
-host_resolve(Host, _) :-
+host_resolve(Host, Where) :-
     \+ atom(Host),
     !,
-    must_be(atom, Host).
+    described(Host, Address),
+    host_resolve(Address, Where).
 host_resolve(Host, local(Host)) :-
     host(Host, _, _),
     !.
@@ -664,6 +670,28 @@ host_resolve(Name, remote(Address, Name, Endpoint)) :-
     sort(Found0, Addresses),
     the_only(Addresses, Name, Address),
     address_parts(Address, _, Endpoint).
+
+described(Host, Address) :-
+    is_of_type(host_description, Host),
+    on_demand_load(description, any),
+    one_of(Host, Address0),
+    !,
+    must_be(atom, Address0),
+    Address = Address0.
+described(Host, _) :-
+    is_of_type(host_description, Host),
+    !,
+    throw(error(existence_error(host, Host),
+                context(_, 'nothing in this process knows hosts by tags'))).
+described(Host, _) :-
+    must_be(atom, Host).
+
+error:has_type(host_description, any(Tags)) :-
+    (   is_list(Tags)
+    ->  Tags = [_|_],
+        maplist(atom, Tags)
+    ;   atom(Tags)
+    ).
 
 %   elsewhere/2 may still list a host of this process that is stopping.
 

@@ -69,8 +69,8 @@ other processes order.
 %   or clauses(Terms), the terms as in a file.  Options:
 %
 %     - name(+Atom): the id is made from it; default that of the program
-%     - host(+Host): the host, also of another process; default the first
-%       host of this process
+%     - host(+Host): the host, also of another process, or any(Tags), see
+%       host_resolve/2; default the first host of this process
 %     - tokens(+List): tokens for hosts that ask for one
 %     - payloads(+Specs): attached from the start
 %     - facts(+Clauses): added to its initial state, which its program, or
@@ -166,6 +166,7 @@ attaches(Clauses) :-
 
 typhon_options:declared(agent_option, name(X), atom, X).
 typhon_options:declared(agent_option, host(X), atom, X).
+typhon_options:declared(agent_option, host(X), host_description, X).
 typhon_options:declared(agent_option, tokens(X), list, X).
 typhon_options:declared(agent_option, payloads(X), list, X).
 typhon_options:declared(agent_option, facts(X), list, X).
