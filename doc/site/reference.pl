@@ -59,7 +59,7 @@ part(robots, "Robots: library(typhon/nxt)").
 %   of the task, or Module:PIs if some are of other tasks.
 
 task(agents, "Move, clone and end",
-     [ typhon_words:[move/1, clone/1, clone/2, dispose/0],
+     [ typhon_words:[move/1, move/2, clone/1, clone/2, dispose/0],
        typhon_migration:[next_host/2] ]).
 task(agents, "Wait, and exchange messages",
      [ typhon_words:[sleep/1, receive/1, receive/2, send/2] ]).

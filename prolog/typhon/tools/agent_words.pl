@@ -91,6 +91,7 @@ instead(_) -->
 %   agents.
 
 outside(move/1, 'agent_move(Agent, Host)').
+outside(move/2, 'agent_move(Agent, Host)').
 outside(clone/1, 'agent_clone(Agent, Clone)').
 outside(clone/2, 'agent_clone(Agent, Clone)').
 outside(send/2, 'agent_send(Agent, Message)').

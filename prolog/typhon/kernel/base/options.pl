@@ -8,6 +8,7 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(error), [domain_error/2, is_of_type/2, must_be/2]).
+:- use_module(library(solution_sequences), [distinct/2]).
 :- use_module(index, [part_joins/3]).
 :- use_module(on_demand, [on_demand_load/2]).
 :- use_module(names,
@@ -129,7 +130,8 @@ prolog:error_message(domain_error(Domain, Culprit)) -->
 
 meant(Domain, Name, _, Text) :-
     findall(Option,
-            ( declared(Domain, Option, _, _), functor(Option, Name, _) ),
+            distinct(Option, ( declared(Domain, Option, _, _),
+                               functor(Option, Name, _) )),
             Options),
     Options \== [],
     !,

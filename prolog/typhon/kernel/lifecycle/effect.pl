@@ -6,6 +6,8 @@
           ]).
 :- use_module(library(error),
               [domain_error/2, must_be/2, permission_error/3, type_error/2]).
+:- use_module(library(option), [option/2]).
+:- use_module('../base/options', [check_options/2]).
 :- use_module('../base/prng',
               [chance_hash/2, chance_seed/2, chance_uniform/5]).
 :- use_module('../program', [answer_at/3]).
@@ -59,6 +61,17 @@ effect(move(Host), Hole, Goals, Id-Here, Next) :-
     ;   parts_call(acts, Here, [Id, move]),
         set_out(Dest, Hole, Goals, Id-Here, Next)
     ).
+effect(move(Host, Options), Hole, Goals, Id-Here, Next) :-
+    check_options(move_option, Options),
+    destination(Host, Dest),
+    (   Dest = remote(_, _, _),
+        option(wait(Seconds), Options)
+    ->  parts_call(acts, Here, [Id, move]),
+        wait_until(Seconds, Here, Until),
+        set_out(Dest, wait(Hole, Until), Goals, Id-Here, Next)
+    ;   arg(1, Dest, To),
+        effect(move(To), Hole, Goals, Id-Here, Next)
+    ).
 effect(clone(Role), Hole, Goals, Id-Here, go(Goals)) :-
     parts_call(acts, Here, [Id, clone]),
     can_be_kept(Goals),
@@ -84,8 +97,7 @@ effect(sleep(Seconds), sleep(inf), Goals, Id-_, stop) :-
     with_agent(Id, agent_rest(Id, sleeping(inf), Goals)).
 effect(sleep(Seconds), Hole, Goals, Id-Here, Next) :-
     must_be(number, Seconds),
-    host_time(Here, Now),
-    Until is Now+Seconds,
+    wait_until(Seconds, Here, Until),
     effect(sleep_until(Until), Hole, Goals, Id-Here, Next).
 effect(sleep_until(Until), Hole, Goals, Id-Here, Next) :-
     host_time(Here, Now),
@@ -102,8 +114,7 @@ effect(receive(Message, Seconds), Hole, Goals, Id-Here, Next) :-
     (   infinite(Seconds)
     ->  effect(receive(Message), Hole, Goals, Id-Here, Next)
     ;   must_be(number, Seconds),
-        host_time(Here, Now),
-        Until is Now+Seconds,
+        wait_until(Seconds, Here, Until),
         effect(receive_until(Message, Until, Seconds), Hole, Goals, Id-Here,
                Next)
     ).
@@ -134,6 +145,15 @@ can_be_kept(Goals) :-
     ->  type_error(mobile_term, Var)
     ;   true
     ).
+
+%   wait_until(+Seconds, +Here, -Until): in host time.
+
+wait_until(Seconds, _, inf) :-
+    infinite(Seconds),
+    !.
+wait_until(Seconds, Here, Until) :-
+    host_time(Here, Now),
+    Until is Now+Seconds.
 
 infinite(Seconds) :- Seconds == inf.
 infinite(Seconds) :- Seconds == infinite.
@@ -271,8 +291,8 @@ hop_delay(_, _, _, Min, Max, Delay) :-
 
 destination(Host, Dest) :-
     catch(host_resolve(Host, Dest),
-          error(existence_error(host, _), _),
-          throw(error(move_refused(Host, unknown_host), _))).
+          error(existence_error(host, _), Context),
+          throw(error(move_refused(Host, unknown_host), Context))).
 
 %!  effect_depart(+Id, +Where, +Hole, +Goals, +Since, -Next) is det.
 %
@@ -287,13 +307,15 @@ effect_depart(Id, Dest, Hole, Goals, Since, Next) :-
             Next = stop
           )).
 
-cannot_depart(Hole, Id, _, error(Formal, _)) :-
-    Hole == ordered,                    % else Hole is a variable of Goals
-    !,
-    move_failed(Id, Formal).
 cannot_depart(Hole, _, Dest, Error) :-
+    var(Hole),                          % it is a variable of Goals
+    !,
     arg(1, Dest, Host),
     answer_at(move(Host), throw(Error), Hole).
+cannot_depart(wait(Hole, _), Id, Dest, Error) :-
+    cannot_depart(Hole, Id, Dest, Error).
+cannot_depart(ordered, Id, _, error(Formal, _)) :-
+    move_failed(Id, Formal).
 
 %!  effect_order(+Id, +Here, +Host, +Goals) is det.
 %

@@ -41,8 +41,8 @@ agent; typhon_orders describes how the agent takes it.
 %   stays, and its process prints a warning.  Option:
 %
 %     - wait(+Seconds): return when the agent is on Host; raise an error if
-%       it stays, if it ends first, or if neither is known within Seconds.
-%       After a timeout the order stands.
+%       it stays, if it ends first, or if neither is known within Seconds, a
+%       number or `inf`.  After a timeout the order stands.
 %
 %   @error existence_error(agent, Agent), existence_error(host, Host),
 %   ambiguous_agent(Name, Ids), ambiguous_host(Name, Addresses)
@@ -57,13 +57,15 @@ agent_move(Agent, Host) :-
 
 agent_move(Agent, Host, Options) :-
     check_options(move_option, Options),
-    (   option(wait(Seconds), Options)
-    ->  host_address(Host, Address),
+    (   option(wait(Seconds0), Options)
+    ->  ( Seconds0 == inf -> Seconds = 1.0e9 ; Seconds = Seconds0 ),
+        host_address(Host, Address),
         agent_answer(Agent, order(arrive(Address)), Seconds, arrived)
     ;   agent_move(Agent, Host)
     ).
 
 typhon_options:declared(move_option, wait(Seconds), number, Seconds).
+typhon_options:declared(move_option, wait(Seconds), oneof([inf]), Seconds).
 
 %!  agent_clone(+Agent, -Clone) is det.
 %

@@ -155,6 +155,7 @@ control(Head) :-
 %   | kernel                | the kernel alone makes it                        |
 
 control_use(move(_), called(det)).
+control_use(move(_, _), called(det)).
 control_use(clone(_), called(det)).
 control_use(clone(_, _), called(det)).
 control_use(sleep(_), called(det)).

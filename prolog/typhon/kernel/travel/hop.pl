@@ -82,7 +82,8 @@ agent; answers and taken_over/4 in the threads of the endpoint, which never wait
               [ hop_label/3, may_have_arrived/1, move_over/2,
                 resolve_in_doubt/1, transfer_arrived/1, transfer_freeze/4,
                 transfer_image/2, transfer_image/5, transfer_stays/2,
-                transfer_traveller/3, transfer_unreachable/1 ]).
+                transfer_traveller/3, transfer_unpark/1,
+                transfer_unreachable/1 ]).
 :- use_module(whereabouts,
               [ agent_arrived/4, agent_born/2, agent_departed/4, hop_is_new/3,
                 visitor_arrived/4 ]).
@@ -229,6 +230,7 @@ not_sent(Formal, Transfer) :-
 %   Send the agent once more.
 
 typhon_transfer:again(Transfer) :-
+    transfer_unpark(Transfer),
     (   transfer_image(Transfer, Image)
     ->  send(Transfer, Image)
     ;   transfer_stays(Transfer, given_up)

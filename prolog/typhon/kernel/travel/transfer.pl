@@ -7,6 +7,8 @@
             transfer_arrived/1,         % +Transfer
             transfer_stays/2,           % +Transfer, +Error
             transfer_unreachable/1,     % +Transfer
+            transfer_parked/1,          % +Transfer
+            transfer_unpark/1,          % +Transfer
             transfer_let_go/4,          % +Id, -Mail, -Orders, -Gone
             transfer_given_up/2,        % +Id, +Frozen
             transfer_held/2,            % +Frozen, -Held
@@ -32,7 +34,10 @@ process; the transfer ends when the agent has arrived, or stays.
 
 The held goals are Hole-Goals, for a clone Hole-Goals-Role.  While the agent is
 frozen its goals are hop(Held, Hops, Mail, Since) or
-clone(Held, CloneId, Since).
+clone(Held, CloneId, Since).  In place of the hole there is `ordered` if the move
+was an order, and wait(Hole, Until) if the agent may wait for a host that cannot
+be reached; parked(Hole, Until) from the moment at which it is offered to the hook
+parks/2 until the image is sent: so it is not in doubt.
 
 A transfer is in doubt if the process to which the agent was sent is gone before
 it has answered.  If the home of the agent knows of this hop or a later one, the
@@ -63,7 +68,7 @@ resolve_in_doubt/1 in reader threads, which never wait; ask_peers/2 in a worker.
 :- use_module('../base/reports', [report/4]).
 :- use_module('../host',
               [ address_parts/3, alarm_in/3, event/4, events_forget/1,
-                host_departure/2, scheduler_call/1 ]).
+                host_departure/2, real_time/3, scheduler_call/1, time_now/1 ]).
 :- use_module('../program', [answer_at/3]).
 :- use_module('../wire',
               [ endpoint_address/1, endpoint_call/5, endpoint_gone/1,
@@ -91,6 +96,8 @@ resolve_in_doubt/1 in reader threads, which never wait; ask_peers/2 in a worker.
                                         % durable, a hop begins at Sent
     hop_label/3,
     hop_over/2,                         % Id, Hops: the hop is over
+    parks/2,                            % Transfer, Seconds: end it later, by
+                                        % transfer_arrived/1 or transfer_stays/2
     forward_order/2,                    % Id, Order: Order follows Id, which has left
     answered/2,                         % Asker, Answer: of an ordered move
     typhon_runtime:ending/1,
@@ -110,13 +117,26 @@ transfer_traveller(clone_transfer(_, _, CloneId), CloneId, 1).
 %
 %   Image is the image to send; binds the hole, and the number of the hop.
 
-transfer_image(transfer(Id, _, Hops), Hole-Goals, Mail, Since, Image) :-
+transfer_image(transfer(Id, _, Hops), Held, Mail, Since, Image) :-
+    held_goals(Held, Hole-Goals),
     ignore(Hole = true),                % Hole is bound if the move was an order
     image_hop(Id, Hops, Goals, Mail, Since, Image).
 transfer_image(clone_transfer(Id, _, CloneId), Hole-Goals-Role, _, Since,
                Image) :-
     Hole = (Role=clone(Id)),
     image_clone(Id, CloneId, Goals, Since, Image).
+
+held_goals(Hole0-Goals, Hole-Goals) :-
+    waits(Hole0, Hole, _),
+    !.
+held_goals(Held, Held).
+
+waits(Hole0, _, _) :-
+    var(Hole0),
+    !,
+    fail.
+waits(wait(Hole, Until), Hole, Until).
+waits(parked(Hole, Until), Hole, Until).
 
 %!  transfer_image(+Transfer, -Image) is semidet.
 %
@@ -292,14 +312,67 @@ stays(clone_transfer(Id, dest(Address, _, _), CloneId), Error) :-
 
 %!  transfer_unreachable(+Transfer) is det.
 %
-%   As transfer_stays/2, with the error host_unreachable(Address).
+%   As transfer_stays/2, with the error host_unreachable(Address), unless the
+%   agent waits and the hook parks/2 takes the transfer over.  The hook runs in any
+%   thread, and must not wait.  It gets the real seconds that are left, or `inf`.
+%   At 0 it should take only what it has already.
 
+transfer_unreachable(Transfer) :-
+    transfer_parks(Transfer),
+    !.
 transfer_unreachable(Transfer) :-
     arg(2, Transfer, dest(Address, _, _)),
     transfer_stays(Transfer, host_unreachable(Address)).
 
+%   That it is parked is noted first: the hook may end the transfer at once.
+
+transfer_parks(Transfer) :-
+    Transfer = transfer(Id, _, _),
+    '$get_predicate_attribute'(typhon_transfer:parks(_, _),
+                               number_of_clauses, _),
+    note_wait(Transfer, parked(_, Until)),
+    agent(Id, Host, _, _, _),
+    seconds_left(Until, Host, Seconds),
+    parks(Transfer, Seconds).
+
+note_wait(transfer(Id, _, Hops), Wait) :-
+    unit_of_work(with_agent(Id, note_wait(Id, Hops, Wait))).
+
+note_wait(Id, Hops, Wait) :-
+    agent_status(Id, Status, hop(Hole-Goals, Hops, Mail, Since)),
+    waits(Hole, Inner, Until),
+    arg(1, Wait, Inner),
+    arg(2, Wait, Until),
+    agent_put(Id, Status, hop(Wait-Goals, Hops, Mail, Since)).
+
+seconds_left(inf, _, inf) :-
+    !.
+seconds_left(Until, Host, Seconds) :-
+    real_time(Host, Until, Stamp),
+    time_now(Now),
+    Seconds is max(0.0, Stamp-Now).
+
+%!  transfer_parked(+Transfer) is semidet.
+%
+%   The agent was offered to parks/2, and was not sent since.
+
+transfer_parked(transfer(Id, _, Hops)) :-
+    agent_status(Id, transit(_, _), hop(Hole-_, Hops, _, _)),
+    subsumes_term(parked(_, _), Hole).
+
+%!  transfer_unpark(+Transfer) is det.
+%
+%   The agent is sent now, if it was parked.
+
+transfer_unpark(Transfer) :-
+    (   transfer_parked(Transfer)
+    ->  ignore(note_wait(Transfer, wait(_, _)))
+    ;   true
+    ).
+
 back(Id, Hops, Address, Error) :-
-    agent_status(Id, transit(_, _), hop(Hole-Goals, Hops, Mail, _)),
+    agent_status(Id, transit(_, _), hop(Held, Hops, Mail, _)),
+    held_goals(Held, Hole-Goals),
     mail_back(Id, Mail),
     (   Hole == ordered
     ->  move_failed(Id, Error)
@@ -344,9 +417,12 @@ open_transfer(cloning(Address, _), Id, clone(_, CloneId, _),
 
 %!  transfer_held(+Frozen, -Held) is semidet.
 %
-%   Held is Hole-Goals of an agent that is under way.
+%   Held is Hole-Goals of an agent that is under way, or is about to leave.
 
-transfer_held(hop(Held, _, _, _), Held).
+transfer_held(hop(Held0, _, _, _), Held) :-
+    held_goals(Held0, Held).
+transfer_held(hop(Held0, _), Held) :-
+    held_goals(Held0, Held).
 transfer_held(clone(Held-_, _, _), Held).
 
                 /*******************************
@@ -445,7 +521,21 @@ may_have_arrived(Transfer) :-
 typhon_durable:go_on :-
     findall(Transfer, transfer_open(Transfer), Transfers),
     forall(member(Transfer, Transfers),
-           scheduler_call(typhon_transfer:again(Transfer))).
+           scheduler_call(typhon_transfer:goes_on(Transfer))).
+
+%   What was parked, and is not any more, may be elsewhere.
+
+goes_on(Transfer) :-
+    transfer_parked(Transfer),
+    (   transfer_parks(Transfer)
+    ->  true
+    ;   transfer_traveller(Transfer, Agent, Hops),
+        transfer_again(Agent, Hops),
+        fail
+    ),
+    !.
+goes_on(Transfer) :-
+    again(Transfer).
 
 home_answered(Transfer, answer(true)) :-
     !,
@@ -566,17 +656,20 @@ in_doubt(Status) :-
 
 %!  out_of_touch(+Status) is semidet.
 %
-%   The answer is overdue and the connection is broken.  An order to end the
-%   agent, which follows the agent before that, is then carried out here.
+%   The answer is overdue and there is no connection.  An order to end the agent,
+%   which follows the agent before that, is then carried out here.
 
 out_of_touch(Status) :-
     overdue(Status),
-    down(Status).
+    \+ connection(Status, up).
 
 down(Status) :-
+    connection(Status, down).
+
+connection(Status, State) :-
     arg(1, Status, Address),
     address_parts(Address, _, Endpoint),
-    endpoint_peer(Endpoint, state(down)),
+    endpoint_peer(Endpoint, state(State)),
     !.
 
 overdue(Status) :-

@@ -18,6 +18,7 @@
             enter/1,                    % +Result
             message_failed/2,           % +From, +Message
             move/1,                     % +Host
+            move/2,                     % +Host, +Options
             clone/1,                    % -Role
             clone/2,                    % +Host, -Role
             receive/1,                  % ?Message
@@ -330,11 +331,18 @@ message_failed(From, Message) :-
                 *******************************/
 
 %!  move(+Host) is det.
+%!  move(+Host, +Options) is det.
 %
 %   Move to Host and go on there with the next goal; go on at once if the agent
-%   is there already.  Choice points left of move/1 are discarded, as those left
-%   of all predicates below.
+%   is there already.  Host may be any(Tags), Tags a tag or a list of tags, where
+%   an option knows hosts by tags.  Choice points left of move/1 are discarded, as
+%   those left of all predicates below.  Option:
 %
+%     - wait(+Seconds): if Host cannot be reached wait for it, where an option
+%       keeps agents for hosts that are away, for Seconds of host time, a number
+%       or `inf`; else as move/1
+%
+%   @error domain_error(move_option, Option)
 %   @error move_refused(Host, Reason): capacity, token or unknown_host
 %   @error host_unreachable(Host)
 %   @error type_error(mobile_term, Culprit)

@@ -61,10 +61,13 @@ allowed(Policy, Goal, free) :-
 %
 %   A rule of Policy refuses Goal, whether it is a construct, a control
 %   predicate, or a service.  What a control predicate becomes when an agent
-%   stops is refused as that.
+%   stops is refused as that, and move/2 is refused as move/1, too.
 
 refuses(Policy, Goal) :-
     rule(Goal, Policy, refuse),
+    !.
+refuses(Policy, move(Host, _)) :-
+    rule(move(Host), Policy, refuse),
     !.
 refuses(Policy, Goal) :-
     control_written(Goal, Written),

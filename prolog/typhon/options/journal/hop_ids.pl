@@ -4,7 +4,8 @@
 :- use_module('../../kernel/wire', [endpoint_process/1]).
 :- use_module('../../kernel/agent', [agent_status/3]).
 :- use_module('../../kernel/travel',
-              [transfer_again/2, transfer_open/1, transfer_traveller/3]).
+              [ transfer_again/2, transfer_open/1, transfer_parked/1,
+                transfer_traveller/3 ]).
 
 /** <module> Ids of hops
 
@@ -78,7 +79,7 @@ restore(Transfer, Sent) :-
     transfer_traveller(Transfer, Agent, Hops),
     arg(2, Transfer, dest(_, _, Endpoint)),
     add(Agent, Hops, Endpoint, Sent),
-    transfer_again(Agent, Hops).
+    ( transfer_parked(Transfer) -> true ; transfer_again(Agent, Hops) ).
 
 typhon_runtime:ending(after) :-
     retractall(under_way(_, _, _, _)).

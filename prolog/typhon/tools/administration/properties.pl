@@ -196,9 +196,6 @@ goal_list(Held, Goals) :-
     held_parts(Held, _, Goals0),
     !,
     Goals = Goals0.
-goal_list(hop(Held, _), Goals) :-       % leaving
-    !,
-    without_hole(Held, Goals).
 goal_list(Goals, Goals).
 
 without_hole(Hole-Goals0, Goals) :-

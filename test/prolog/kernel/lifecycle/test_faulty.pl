@@ -107,9 +107,9 @@ printed(condition_without_else,
 printed(receive_times_out, ['main :- receive(user-_, 0.01), log(x).' ],
         " at alpha (hop 0): failed: the goal that failed last was \c
          receive(user-_, 0.01), in main/0 (trip.pl:2)").
-printed(unknown_procedure_has_a_hint, ['main :- log(a), move(beta, now).'],
-        " at alpha (hop 0): Unknown procedure: move/2 (did you mean \c
-         move/1? If not, a place or a payload must offer it), in main/0 \c
+printed(unknown_procedure_has_a_hint, ['main :- log(a), sleep(1, now).'],
+        " at alpha (hop 0): Unknown procedure: sleep/2 (did you mean \c
+         sleep/1? If not, a place or a payload must offer it), in main/0 \c
          (trip.pl:2)").
 printed(unbound_argument_of_a_control_predicate, ['main :- move(_).'],
         " at alpha (hop 0): Arguments are not sufficiently instantiated, at \c

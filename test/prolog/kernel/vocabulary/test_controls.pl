@@ -147,6 +147,7 @@ test(rule_refuses_what_its_predicate_becomes, Passed == []) :-
 test(rule_refuses_no_other, Refused == []) :-
     findall(PI-Of, ( control(Head), control_use(Written, called(_)),
                      Written \= Head, \+ control_written(Head, Written),
+                     Written-Head \= move(_)-move(_, _),
                      refused(Written, Head), indicator(Head, PI),
                      indicator(Written, Of) ), Refused).
 test(waiting_agent_is_found_in_its_clause, Lost == []) :-

@@ -94,7 +94,9 @@ written_out(PIs, Through) :-
 
 stop(PI, test_send(outcome(effect(Control, Hole, [Hole]), none, []))) :-
     member(PI-Control,
-           [ (move/1)-move(nowhere), (clone/1)-clone(_), (clone/2)-clone(_, _),
+           [ (move/1)-move(nowhere), (move/1)-move(nowhere, []),
+             (move/2)-move(nowhere, []), (clone/1)-clone(_),
+             (clone/2)-clone(_, _),
              (sleep/1)-sleep(0), (sleep/1)-sleep_until(0),
              (receive/1)-receive(_), (receive/2)-receive(_, 0),
              (receive/2)-receive_until(_, 0, _), (dispose/0)-dispose ]).
