@@ -21,7 +21,7 @@ This is the interface of the layer: higher layers import from here.
               outcome_wait/3, whereabouts/2 ]).
 :- reexport(travel/outcomes, [clone_born/2, clones_ask/3, results_ask/4]).
 :- reexport(travel/mail,
-            [ mail_lost/3, post/3, post_on/2, post_tried/0, post_via/4,
+            [ mail_admit/3, mail_lost/3, post/3, post_on/2, post_tried/0, post_via/4,
               retries_go_on/0 ]).
 :- reexport(travel/sender_authorization,
             [ mail_accepted/5, peer_may_send_for/3, sender_accepted/1,

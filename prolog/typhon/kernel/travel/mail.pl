@@ -4,6 +4,7 @@
             post_on/2,                  % +Id, +Messages
             post_waiting/2,             % +Id, -Messages
             mail_lost/3,                % +Formal, +Id, +Mail
+            mail_admit/3,               % +Letter, +Id, +Mail
             backlog/1,                  % +Id
             retries_go_on/0,
             post_tried/0
@@ -46,9 +47,11 @@ for a connection; one_letter/2 is pure.
               [ agent/5, agent_home/2, agent_home_endpoint/2, agent_mail/2,
                 agent_on/2, mail_fitting/4, mail_full/2, with_agent/2 ]).
 :- use_module('../base/durable',
-              [ deferred_act/4, durable/6, durable_drop_all/2,
+              [ deferred_act/4, durable/5, durable/6, durable_assertz/1,
+                durable_drop/3, durable_drop_all/2,
                 durable_number/1, durable_on/0, durable_post/3, durable_put/4,
                 effects_deferred/0, enqueue_changes/0, unit_of_work/1 ]).
+:- use_module('../base/bounds', [bounded/3]).
 :- use_module('../base/fifo', [fifo_empty/2]).
 :- use_module('../base/reports', [report/4, report/5]).
 :- use_module('../host',
@@ -65,14 +68,21 @@ for a connection; one_letter/2 is pure.
 :- setting(typhon_backlog:messages, positive_integer, 100 000,
            "Messages that wait, in all, for agents that cannot be reached now").
 
+:- setting(admitted, positive_integer, 20 000,
+           "Letters that were kept elsewhere, and are recognised if they come again").
+
 :- dynamic
+    admitted/1,                         % Letter
     waits/4.                            % Id, Queue, Tries, State: `idle`, or
                                         % tried(Messages)
 
 :- multifile
+    typhon_bounds:forgotten/1,
     typhon_durable:act/3,
     typhon_endpoint:received/3,
     typhon_endpoint:together/3,
+    mail_kept/3,                        % Formal, Id, Mail: keep Mail, which cannot
+                                        % be sent on now
     returned/3,                         % From, Id, Message: the bridge of From takes
                                         % it back
     typhon_durable:undelivered/4,
@@ -101,7 +111,7 @@ post(Id, From, Message) :-
     mobile_term(Message),
     (   \+ durable_on
     ->  with_agent(Id, post_way(Id, From, Message, Way)),
-        go(Way, Id)
+        go(Way, Id, From, Message)
     ;   effects_deferred
     ->  ( agent_on(Id, _) -> By = any ; By = frame ),
         deferred_act(letter, Id, From-Message, By)
@@ -114,7 +124,7 @@ post_now(Id, From, Message) :-
     with_agent(Id, ( post_way(Id, From, Message, Way0),
                      retry_if_waiting(Way0, Id, Way),
                      enqueue_changes )),
-    go(Way, Id).
+    go(Way, Id, From, Message).
 
 retry_if_waiting(wait(Letter), Id, done) :-
     !,
@@ -222,6 +232,31 @@ letter_to(message(Id, Mail, Left), Id-letter(Mail, Left)) :-
 one_message(Id-Letters, message(Id, Mail, Left)) :-
     one_letter(Letters, letter(Mail, Left)).
 
+%!  mail_admit(+Letter, +Id, +Mail) is det.
+%
+%   Mail, which was kept elsewhere for Id under the name Letter, goes on its way,
+%   unless it has done so before.
+
+mail_admit(Letter, Id, Mail) :-
+    unit_of_work(admit(Letter, Id, Mail)).
+
+admit(Letter, _, _) :-
+    admitted(Letter),
+    !.
+admit(Letter, Id, Mail) :-
+    bounded(admitted(_), typhon_mail:admitted,
+            durable_assertz(admitted(Letter))),
+    max_forwards(Max),
+    pass_on(Id, letter(Mail, Max)).
+
+:- durable(admitted, Letter, 0, '', admitted(Letter)).
+
+typhon_bounds:forgotten(admitted(Letter)) :-
+    durable_drop(admitted, Letter, 0).
+
+typhon_runtime:ending(after) :-
+    retractall(admitted(_)).
+
 %!  post_waiting(+Id, -Messages:list) is det.
 %
 %   Take the messages that waited here for Id, which has arrived; inside
@@ -260,15 +295,39 @@ way_on(Id, Letter, done) :-
 way_on(Id, Letter, Way) :-
     way_out(Id, Letter, Way).
 
-%   go(+Way, +Id): in a thread that may wait; errors are raised to the caller.
+%   go(+Way, +Id, +From, +Message): in a thread that may wait; errors are raised
+%   to the caller.
 
-go(done, _).
-go(to(Endpoint, Letter), Id) :-
+go(done, _, _, _).
+go(to(Endpoint, Letter), Id, _, _) :-
     way_send(Endpoint, Id, Letter).
-go(wait(Letter), Id) :-
+go(wait(Letter), Id, _, _) :-
     with_agent(Id, retry_if_waiting(wait(Letter), Id, done)).
-go(nowhere, Id) :-
-    existence_error(agent, Id).
+go(nowhere, Id, From, Message) :-
+    new_letter(From, Message, letter(Mail, _)),
+    kept_or_error(existence_error(agent, Id), Id, Mail).
+
+%   kept_or_error(+Formal, +Id, +Mail) is det: in a thread that may wait, outside
+%   with_agent/2.  With a journal the hook runs in the unit of work in which the
+%   letter leaves: what it notes is committed with that, and what it sends must
+%   wait for the commit.
+
+kept_or_error(Formal, Id, Mail) :-
+    (   kept(Formal, Id, Mail)
+    ->  true
+    ;   throw(error(Formal, _))
+    ).
+
+kept(Formal, Id, Mail) :-
+    mail_may_be_kept(Id),
+    mail_kept(Formal, Id, Mail),
+    !,
+    debug(typhon(mail), '~w: a letter is kept, ~p', [Id, Formal]).
+
+mail_may_be_kept(Id) :-
+    '$get_predicate_attribute'(typhon_mail:mail_kept(_, _, _),
+                               number_of_clauses, _),
+    \+ agent_outcome(Id, _).
 
                 /*******************************
                 *           ROUTING            *
@@ -364,13 +423,14 @@ way_send(Endpoint, Id, Letter) :-
           send_home(Endpoint, Id, Letter)).
 
 send_home(Failed, Id, Letter) :-
+    Letter = letter(Mail, _),
     (   agent_home_endpoint(Id, Home),
         Home \== Failed,
         \+ endpoint_address(Home)
     ->  catch(sent(Home, Id, Letter, endpoint_post),
               error(unreachable(_), _),
-              throw(error(host_unreachable(Home), _)))
-    ;   throw(error(host_unreachable(Failed), _))
+              kept_or_error(host_unreachable(Home), Id, Mail))
+    ;   kept_or_error(host_unreachable(Failed), Id, Mail)
     ).
 
 %   sent(+Endpoint, +Id, +Letter, :Post): send the mail of Letter to Endpoint,
@@ -387,7 +447,13 @@ sent(Endpoint, Id, letter(Mail, Left), Post) :-
 part_sent(Endpoint, Id, Mail, Left) :-
     catch(posted(Endpoint, Id, letter(Mail, Left), endpoint_post),
           error(unreachable(_), _),
-          mail_lost(host_unreachable(Endpoint), Id, Mail)).
+          kept_or_lost(host_unreachable(Endpoint), Id, Mail)).
+
+kept_or_lost(Formal, Id, Mail) :-
+    (   kept(Formal, Id, Mail)
+    ->  true
+    ;   mail_lost(Formal, Id, Mail)
+    ).
 
 %   posted(+Endpoint, +Id, +Letter, :Post): a letter too long for one frame is
 %   sent in two.  With a journal the post is durable, and sent when possible.
@@ -514,7 +580,10 @@ typhon_durable:undelivered(message, shown(_, Message), Endpoint,
                                    Formal) :-
     typhon_durable:undelivered(message, Message, Endpoint, Formal).
 typhon_durable:undelivered(message, message(Id, Mail, _), _, Formal) :-
-    mail_lost(Formal, Id, Mail).
+    (   mail_may_be_kept(Id)
+    ->  scheduler_call(unit_of_work(kept_or_lost(Formal, Id, Mail)))
+    ;   mail_lost(Formal, Id, Mail)
+    ).
 
                 /*******************************
                 *            LETTERS           *
@@ -651,13 +720,14 @@ post_tried :-
     waits(_, _, _, tried(_)),
     !.
 
-%   backlog_leaves(+Id) is det.
+%   backlog_leaves(+Id, +Letters) is det.
 %
-%   Drop from the journal the letters that are being tried, which will be noted
-%   elsewhere; those that have come meanwhile stay.
+%   Drop from the journal the letters that are being tried, but Letters, as the
+%   others will be noted elsewhere; those that have come meanwhile stay.
 
-backlog_leaves(Id) :-
+backlog_leaves(Id, Letters) :-
     durable_drop_all(wait, Id),
+    maplist(note_letter(Id), Letters),
     (   waits(Id, Queue, _, tried(_))
     ->  fifo_empty(Queue, Newer),
         maplist(note_letter(Id), Newer),
@@ -767,22 +837,38 @@ tried(Id, Letter, Tries) :-
                            Way = failed(Formal)),
                      (   Way = to(_, _)
                      ->  true
+                     ;   Way == nowhere,
+                         mail_may_be_kept(Id)
+                     ->  backlog_leaves(Id, [Letter]),
+                         enqueue_changes
                      ;   conclude(Way, Id, Letter, Tries),
                          enqueue_changes
                      ) )),
     send_connecting(Way, Id, Letter, Tries).
 
 leave_backlog(Id, Letter, Way) :-
-    backlog_leaves(Id),
+    backlog_leaves(Id, []),
     step(Id, Letter, Way).
 
-%   The letter needs a new connection; nothing is noted before it is sent.
+%   The letter needs a new connection, or may be kept; it leaves the backlog when
+%   it is sent, or kept.
 
 send_connecting(to(Endpoint, Letter1), Id, Letter, Tries) :-
     !,
     catch(( way_send(Endpoint, Id, Letter1), Way = done ), error(Formal, _),
           Way = failed(Formal)),
     with_agent(Id, conclude(Way, Id, Letter, Tries)).
+send_connecting(nowhere, Id, Letter, Tries) :-
+    mail_may_be_kept(Id),
+    !,
+    Letter = letter(Mail, _),
+    (   kept(existence_error(agent, Id), Id, Mail)
+    ->  Way = done
+    ;   Way = nowhere
+    ),
+    with_agent(Id, ( backlog_leaves(Id, []),
+                     conclude(Way, Id, Letter, Tries),
+                     enqueue_changes )).
 send_connecting(_, _, _, _).
 
 step(Id, letter(Mail, _), done) :-
