@@ -30,7 +30,8 @@ a folder, with an interface of the same name beside it:
 :- use_module(typhon/tools/user_errors, [user_errors/1]).
 :- reexport(typhon/tools/administration,
             [ host_change/2, host_property/2, link/2, link/3, unlink/2,
-              remote/2, agent_change/2, agent_property/2, agent_save/2,
+              remote/2, agent_change/2, agent_property/2, agent_where/2,
+              agent_save/2,
               agent_load/2, agent_load/3 ]).
 :- reexport(typhon/tools/checks, [agent_check/1, agent_check/2]).
 :- reexport(typhon/tools/source_view, [agent_listing/1]).

@@ -93,7 +93,8 @@ task(library, "Write to agents, and order them about",
 task(library, "Wait for agents, and end them",
      [typhon_join, typhon_supervision, typhon_disposal]).
 task(library, "Look into agents",
-     [ typhon_environment, typhon_administration:[agent_property/2],
+     [ typhon_environment,
+       typhon_administration:[agent_property/2, agent_where/2],
        typhon_source_view, typhon_trace, typhon_trails ]).
 task(library, "Watch a network", [typhon_watches, typhon_page]).
 task(library, "Save and restore agents",

@@ -7,15 +7,17 @@ an agent records where the agent is.
 This is the interface of the layer: higher layers import from here.
 */
 
-:- reexport(travel/hop, [hand_over/5, hop/6, hop_at_once/6, hop_clone/6]).
+:- reexport(travel/hop, [ hand_over/5, hop/6, hop_at_once/6, hop_clone/6,
+                       transfer_parcel/2 ]).
 :- reexport(travel/transfer,
             [ in_doubt/1, move_awaited/2, move_failed/2, move_over/2,
               out_of_touch/1, transfer_again/2, transfer_arrived/1,
               transfer_given_up/2, transfer_held/2, transfer_open/1,
               transfer_parked/1, transfer_stays/2, transfer_traveller/3 ]).
-:- use_module(travel/arrival, []).
+:- reexport(travel/arrival, [parcel_admit/3, parcel_returned/3]).
 :- reexport(travel/whereabouts,
             [ agent_born/2, agent_ended/4, agent_ends/2, agent_faulty/5,
+              agent_known_at/2,
               agent_outcome/2, agent_resumed/3, agent_resumed_from/3,
               ended_agent/1, home_agents/1, home_agents_at/2, home_knows/4,
               outcome_wait/3, whereabouts/2 ]).

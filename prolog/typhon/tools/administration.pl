@@ -6,6 +6,7 @@
             unlink/2,                   % +HostA, +HostB
             remote/2,                   % +Host, +Goal
             agent_property/2,           % ?Agent, ?Property
+            agent_where/2,              % +Agent, -Host
             agent_change/2,             % +Agent, +Change
             status_shown/2,             % +Status, -State
             agent_save/2,               % +Agent, +File
@@ -18,7 +19,7 @@
             [ change_host/2, link_hosts/2, link_hosts/3, property_of_host/2,
               unlink_hosts/2 ]).
 :- autoload('administration/properties',
-            [property_of_agent/2, show_status/2]).
+            [place_of_agent/2, property_of_agent/2, show_status/2]).
 :- autoload('administration/restore', [load_agent/3, save_agent/2]).
 
 /** <module> Administration: properties and changes of hosts and agents
@@ -125,6 +126,16 @@ remote(Host, Goal) :-
 
 agent_property(Agent, Property) :-
     property_of_agent(Agent, Property).
+
+%!  agent_where(+Agent, -Host) is det.
+%
+%   Host is the address of the host on which Agent is, or was when it was last
+%   heard of, if its process does not answer.
+%
+%   @error existence_error(agent, Agent), ambiguous_agent(Agent, Ids)
+
+agent_where(Agent, Host) :-
+    place_of_agent(Agent, Host).
 
 %!  agent_change(+Agent, +Change) is det.
 %

@@ -11,6 +11,7 @@
                                         % -Clauses, -Goals, -Since
             image_life/2,               % +Image, -Life
             image_label/2,              % +Image, -Label
+            image_returned/3,           % +Image0, +Goals, -Image
             image_entrant/2,            % +Image, -Entrant
             image_amended/5,            % +Phase, +Host, +Where, +Image0,
                                         % -Image
@@ -84,6 +85,14 @@ start(Host, Since, Start) :-
     ->  Start = Address-Since
     ;   Start = Since
     ).
+
+%!  image_returned(+Image0, +Goals, -Image) is det.
+%
+%   Image is Image0 with Goals, on one hop more.
+
+image_returned(image(Id, Hash, Life0, State, _, Mail, Start), Goals,
+               image(Id, Hash, Life, State, Goals, Mail, Start)) :-
+    life_hop(Life0, Life, _).
 
 %!  image_entrant(+Image, -Entrant) is det.
 %

@@ -8,19 +8,24 @@
 :- use_module('../host', [process_ask/6, time_now/1, time_wait/3]).
 :- use_module('../agent', [agent/5, agent_home_endpoint/2, result_facts/2]).
 :- use_module('../travel',
-              [agent_outcome/2, clones_ask/3, results_ask/4, outcome_wait/3]).
+              [ agent_known_at/2, agent_outcome/2, clones_ask/3, results_ask/4,
+                outcome_wait/3 ]).
 :- use_module(questions,
               [agent_ask/4, agent_once_named/2, question_answered/2]).
 
 /** <module> Waiting for the end of agents, and for their results
 
 The caller asks the home of the agent, see typhon_whereabouts, which answers when it
-has the outcome.
+has the outcome.  If the home is gone, or does not know the agent, the hooks
+known_end/2 and known_results/2 are asked.
 
 *Threading*: any thread.
 */
 
-:- multifile typhon_questions:here/3.
+:- multifile
+    known_end/2,                % Id, Outcome: an option knows how Id ended
+    known_results/2,            % Id, Results: as in agent_ended/4
+    typhon_questions:here/3.
 
 %!  agent_join(+Agents, -Outcome, +Timeout) is det.
 %
@@ -73,8 +78,40 @@ wait_seconds(Timeout, Seconds) :-
 
 outcome_within(Agent, Seconds, Outcome) :-
     (   agent_home_endpoint(Agent, Endpoint)
-    ->  join(Endpoint, Agent, Seconds, Outcome)
+    ->  until(Seconds, Until),
+        catch(join(Endpoint, Agent, Seconds, Outcome0), error(Formal, Context),
+              Outcome0 = no_home(Formal, Context)),
+        outcome_known(Outcome0, Agent, Until, Outcome)
     ;   Outcome = unknown
+    ).
+
+%   If the home is gone, or does not know the agent, an option may know it.
+
+outcome_known(Outcome0, Agent, Until, Outcome) :-
+    ( Outcome0 == unknown ; Outcome0 = no_home(Formal, _), is_gone(Formal) ),
+    end_known(Agent, Until, Outcome1),
+    !,
+    Outcome = Outcome1.
+outcome_known(no_home(Formal, Context), _, _, _) :-
+    !,
+    throw(error(Formal, Context)).
+outcome_known(Outcome, _, _, Outcome).
+
+is_gone(host_unreachable(_)).
+is_gone(connection_lost(_)).
+
+end_known(Agent, _, Outcome) :-
+    known_end(Agent, Outcome0),
+    !,
+    Outcome = Outcome0.
+end_known(Agent, Until, Outcome) :-
+    agent_known_at(Agent, _),           % it has not ended
+    seconds_left(Until, Seconds),
+    (   Seconds > 0
+    ->  Pause is min(0.2, Seconds),
+        sleep(Pause),
+        end_known(Agent, Until, Outcome)
+    ;   Outcome = timeout
     ).
 
 join(Endpoint, Agent, Seconds, Outcome) :-
@@ -184,10 +221,25 @@ results_of(Agent, Outcome, Kind, Items) :-
     Items = Items0.
 results_of(Agent, _, Kind, Items) :-
     agent_home_endpoint(Agent, Home),
-    (   home_here(Agent, Home)
-    ->  results_ask(here, Agent, Kind, Items)
-    ;   results_ask(Home, Agent, Kind, Items)
-    ).
+    ( home_here(Agent, Home) -> Where = here ; Where = Home ),
+    catch(results_ask(Where, Agent, Kind, Items0), error(Formal, Context),
+          Items0 = no_home(Formal, Context)),
+    items_known(Items0, Agent, Kind, Items).
+
+items_known([Item|Items], _, _, [Item|Items]) :-
+    !.
+items_known(_, Agent, Kind, Items) :-
+    known_results(Agent, All),
+    !,
+    items(All, Kind, Items).
+items_known(no_home(Formal, Context), _, _, _) :-
+    !,
+    throw(error(Formal, Context)).
+items_known([], _, _, []).
+
+items(All, Kind, Items) :-
+    functor(Item, Kind, 1),
+    findall(Item, member(Item, All), Items).
 
 may_still_exist(timeout).
 may_still_exist(failed).
@@ -197,6 +249,5 @@ typhon_questions:here(results(Kind), Agent, Asker) :-
     agent(Agent, _, Module, _, _),
     !,
     result_facts(Module, Items0),
-    functor(Item, Kind, 1),
-    findall(Item, member(Item, Items0), Items),
+    items(Items0, Kind, Items),
     question_answered(Asker, answer(Items)).

@@ -1,4 +1,7 @@
-:- module(typhon_arrival, []).
+:- module(typhon_arrival,
+          [ parcel_admit/3,             % +Parcel, +Peer, -Answer
+            parcel_returned/3           % +Parcel0, +Formal, -Parcel
+          ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [append/3]).
 :- use_module('../base/reports', [report/4]).
@@ -12,13 +15,15 @@
               [ endpoint_afterwards/1, endpoint_later/1, endpoint_reply/2,
                 endpoint_reply_later/2 ]).
 :- use_module('../host',
-              [ event/4, host/3, host_hop/4, schedule/2,
+              [ address_parts/3, event/4, host/3, host_hop/4, schedule/2,
                 schedule_adopt/1, schedule_here/3, time_leave/0 ]).
+:- use_module('../program', [answer_at/3]).
 :- use_module('../agent',
               [ agent/5, agent_extras_load/1, agent_extras_missing/1,
                 agent_here/5, agent_order/2, agent_status/3, gate/4,
                 gate_refused/4, image_amended/5, image_enter/4, image_entrant/2,
                 image_filled/2, image_label/2, image_life/2, image_module/3,
+                image_returned/3,
                 life_hops/2, with_agent/2 ]).
 :- use_module(hop, [taken_over/4]).
 :- use_module(whereabouts, [agent_arrived/4, hop_is_new/3]).
@@ -103,10 +108,13 @@ extras_missing(Image) :-
 :- public load_and_take/4.              % goal of a worker
 
 load_and_take(Image, Hop, Peer, ReplyTo) :-
+    extras_loaded(Image, Peer),
+    take(Hop, Peer, ReplyTo).
+
+extras_loaded(Image, Peer) :-
     image_life(Image, Life),
     catch(agent_extras_load(Life), error(Formal, Context),
-          malformed(Peer, error(Formal, Context))),
-    take(Hop, Peer, ReplyTo).
+          malformed(Peer, error(Formal, Context))).
 
 arrived(Name, Image, Program, Label, Peer, Answer) :-
     catch(arrive_noted(Name, Image, Program, Label, Peer, Answer),
@@ -145,6 +153,49 @@ go_on(Name, Id, here) :-
     schedule_here(Name, Hash, typhon_scheduler:run(Id)).
 go_on(Name, Id, later) :-
     schedule(Name, Id).
+
+%!  parcel_admit(+Parcel, +Peer, -Answer) is det.
+%
+%   The agent of Parcel, see transfer_parcel/2, arrives, as from the process at
+%   the endpoint Peer, which it left; not in a reader thread.  Parcel may be any
+%   term.  Answer is `accepted`, also if the agent has come before, or
+%   refused(Reason).
+
+parcel_admit(Parcel, Peer, Answer) :-
+    subsumes_term(parcel(_, _, _, _, _), Parcel),
+    Parcel = parcel(_, To, Image, _, Program),
+    atom(To),
+    address_parts(To, Name, _),
+    nonvar(Image),
+    image_life(Image, _),
+    extras_loaded(Image, Peer),
+    arrived(Name, Image, Program, none, Peer, Answer0),
+    !,
+    admitted(Answer0, Name, Answer).
+parcel_admit(_, _, refused(error(type_error(parcel, other)))).
+
+%   No answer informs the home, if the agent left it for here.
+
+admitted(installed(Id), Name, accepted) :-
+    !,
+    (   agent(Id, _, _, _, Life),
+        host(Name, Address, _)
+    ->  life_hops(Life, Hops),
+        agent_arrived(Id, Address, Hops, none)
+    ;   true                            % it was ended meanwhile
+    ),
+    schedule(Name, Id).
+admitted(Answer, _, Answer).
+
+%!  parcel_returned(+Parcel0, +Formal, -Parcel) is det.
+%
+%   Parcel returns the agent of Parcel0 to the host that it left, by a further
+%   hop; error(Formal, _) is raised there at its move.
+
+parcel_returned(parcel(From, To, Image0, Hole-Goals, Program), Formal,
+                parcel(To, From, Image, Hole-Goals, Program)) :-
+    answer_at(move(To), throw(error(Formal, _)), Hole),
+    image_returned(Image0, Goals, Image).
 
 typhon_endpoint:lent(Thread) :-
     schedule_adopt(Thread).

@@ -5,6 +5,7 @@
                                         % +Goals
             hand_over/5,                % +Id, +Host, +Where, +Hole, +Goals
             taken_over/4,               % +Host, +Image, +Program, +Peer
+            transfer_parcel/2,          % +Transfer, -Parcel
             hop_at_once/6               % +Id, +Here, +Host, +Hole, +Goals,
                                         % -Next
           ]).
@@ -81,7 +82,8 @@ agent; answers and taken_over/4 in the threads of the endpoint, which never wait
 :- use_module(transfer,
               [ hop_label/3, may_have_arrived/1, move_over/2,
                 resolve_in_doubt/1, transfer_arrived/1, transfer_freeze/4,
-                transfer_image/2, transfer_image/5, transfer_stays/2,
+                transfer_image/2, transfer_image/3, transfer_image/5,
+                transfer_stays/2,
                 transfer_traveller/3, transfer_unpark/1,
                 transfer_unreachable/1 ]).
 :- use_module(whereabouts,
@@ -220,6 +222,22 @@ hop_request(Transfer, Name, Image, Program, Request) :-
     ->  Request = hop(Name, Image, Program, Label)
     ;   Request = hop(Name, Image, Program)
     ).
+
+%!  transfer_parcel(+Transfer, -Parcel) is semidet.
+%
+%   Parcel is the agent of Transfer, with its program, as a term that can be kept
+%   elsewhere, see typhon_arrival: parcel(From, To, Image, Held, Program), where
+%   Held is for its return.  Fails if the agent was given up.
+
+transfer_parcel(Transfer, parcel(From, To, Image, Held, Program)) :-
+    Transfer = transfer(Id, dest(To, _, Endpoint), _),
+    agent(Id, Host, _, _, _),
+    host(Host, From, _),
+    transfer_image(Transfer, Image0, Held),
+    image_hash(Image0, Hash),
+    program_missing(Endpoint, Hash),    % so it is in Program
+    amended_image(Transfer, Image0, Image, Program),
+    program_missing(Endpoint, Hash).
 
 not_sent(Formal, Transfer) :-
     (   may_have_arrived(Transfer)

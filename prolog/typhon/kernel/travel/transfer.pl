@@ -3,6 +3,7 @@
             transfer_image/5,           % +Transfer, +Held, +Mail, +Since,
                                         % -Image
             transfer_image/2,           % +Transfer, -Image
+            transfer_image/3,           % +Transfer, -Image, -Held
             transfer_freeze/4,          % +Transfer, +Held, -Mail, +Since
             transfer_arrived/1,         % +Transfer
             transfer_stays/2,           % +Transfer, +Error
@@ -149,6 +150,17 @@ transfer_image(Transfer, Image) :-
     with_agent(Id, ( frozen(Transfer, Held, Mail, Since),
                      transfer_image(Transfer, Held, Mail, Since, Image) )).
 
+%!  transfer_image(+Transfer, -Image, -Held) is semidet.
+%
+%   As transfer_image/2, for a hop.  Held is Hole-Goals, if its hole is open.
+
+transfer_image(Transfer, Image, Held) :-
+    Transfer = transfer(Id, _, _),
+    with_agent(Id, ( frozen(Transfer, Held0, Mail, Since),
+                     held_goals(Held0, Held),
+                     copy_term(Held, Going),
+                     transfer_image(Transfer, Going, Mail, Since, Image) )).
+
 frozen(transfer(Id, _, Hops), Held, Mail, Since) :-
     agent_status(Id, transit(_, _), hop(Held, Hops, Mail, Since)).
 frozen(clone_transfer(Id, _, CloneId), Held, [], Since) :-
@@ -245,8 +257,9 @@ arrived(clone_transfer(Id, dest(Address, _, Endpoint), CloneId)) :-
 %   The destination is noted before the agent is removed, and mail that came
 %   meanwhile is sent before any that comes later.
 
-departed(Id, Hops, Address, Endpoint, Orders, Gone) :-
-    agent_status(Id, transit(_, _), hop(_, Hops, _, Since)),
+departed(Id, Hops, Address, Endpoint0, Orders, Gone) :-
+    agent_status(Id, transit(_, _), hop(Hole-_, Hops, _, Since)),
+    accepted_by(Hole, Endpoint0, Endpoint),
     agent_departed_to(Id, Address, Hops, Endpoint),
     let_go(Id, Since, Mail, Orders, Gone),
     transfer_over(Id, Hops),
@@ -256,6 +269,13 @@ departed(Id, Hops, Address, Endpoint, Orders, Gone) :-
         enqueue_changes
     ;   post_on(Id, Mail)
     ).
+
+%   Which process will take over an agent that was parked is not known yet.
+
+accepted_by(Hole, _, unknown) :-
+    subsumes_term(parked(_, _), Hole),
+    !.
+accepted_by(_, Endpoint, Endpoint).
 
 %!  transfer_let_go(+Id, -Mail, -Orders, :Gone) is semidet.
 %

@@ -18,6 +18,7 @@
             agent_resumed/3,            % +Id, +Stamp, +Hops
             agent_resumed_from/3,       % +Id, +Stamp, +Hops
             agent_location/4,           % +Id, -Address, -Hops, -Process
+            agent_known_at/2,           % +Id, -Address
             hop_is_new/3,               % +Id, +Hops, -Home
             whereabouts/2               % +Id, -Address
           ]).
@@ -81,6 +82,8 @@ sends news to the home, since that may have to connect.
     ended_here/2.               % Id, Hops
 
 :- multifile
+    ended_with/4,               % Id, Outcome, Hops, Results: Id has ended here
+    known_at/2,                 % Id, Address: an option knows where Id is
     error:has_type/2,
     typhon_bounds:forgotten/1,
     typhon_identity:ids_anew/0,
@@ -479,6 +482,7 @@ ended_agent(Id) :-
 %   Report to the home of Id that Id ended after Hops hops, and its Results.
 
 agent_ended(Id, Outcome, Hops, Results) :-
+    forall(ended_with(Id, Outcome, Hops, Results), true),
     end_news(Results, Id, Outcome, Hops, News),
     report_to_home(Id, News).
 
@@ -569,6 +573,16 @@ agent_location(Id, Address, Hops, Process) :-
     forward(Id, Address, Hops, Process).
 agent_location(Id, Address, Hops, Process) :-
     home_knows(Id, Address, Hops, Process).
+
+%!  agent_known_at(+Id, -Address) is semidet.
+%
+%   An option knows that Id, wherever its home is, has not ended, and was last at
+%   Address.
+
+agent_known_at(Id, Address) :-
+    known_at(Id, Address0),
+    !,
+    Address = Address0.
 
 %!  hop_is_new(+Id, +Hops, -Home) is semidet.
 %

@@ -1,7 +1,9 @@
 :- module(typhon_properties,
           [ property_of_agent/2,        % ?Agent, ?Property
+            place_of_agent/2,           % +Agent, -Host
             show_status/2               % +Status, -State
           ]).
+:- use_module(library(error), [existence_error/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module('../../kernel/base/options', [check_name/2]).
@@ -12,7 +14,8 @@
                 fault_error/2, fault_shown/2, is_faulty/3,
                 life_hops/2, life_payloads/2, mail_list/2, with_agent/2 ]).
 :- use_module('../../language/faults', [printable_fallback/2]).
-:- use_module('../../kernel/travel', [in_doubt/1, transfer_held/2]).
+:- use_module('../../kernel/travel', [ agent_known_at/2, agent_outcome/2, in_doubt/1,
+                transfer_held/2, whereabouts/2 ]).
 :- use_module('../../kernel/lifecycle',
               [ agent_ask/4, agent_ask_here/4, agent_named/2, held_parts/3,
                 question_answered/2 ]).
@@ -37,6 +40,31 @@ property_of_agent(Agent, Property0) :-
     question(Property, Question),
     call(Ask, Id, Question, 10, answer(Properties)),
     one_of(Property, Properties).
+
+%!  place_of_agent(+Agent, -Host) is det.
+%
+%   As agent_where/2.
+
+place_of_agent(Agent, Host) :-
+    agent_named(Agent, Id),
+    (   catch(property_of_agent(Id, host(Host0)), error(Formal, Context),
+              no_answer(Formal, Context))
+    ->  true
+    ;   agent_known_at(Id, Host0)
+    ->  true
+    ;   \+ agent_outcome(Id, _),
+        whereabouts(Id, Host0)
+    ->  true
+    ;   existence_error(agent, Agent)
+    ),
+    Host = Host0.
+
+no_answer(Formal, Context) :-
+    (   memberchk(Formal, [ host_unreachable(_), connection_lost(_),
+                            timeout_error(order, _) ])
+    ->  fail
+    ;   throw(error(Formal, Context))
+    ).
 
 %   The enumeration asks only this process: agents that leave meanwhile are left
 %   out.
