@@ -85,6 +85,8 @@ thread of a client reports its progress and returns its own.
     proved/1.                           % Ip, of a peer; the newest last
 
 :- multifile
+    leads_to/2,                         % Address, Real: the process of Address
+                                        % listens at Real
     harmless/1,                         % Formal: a break that need not be reported
     listens_at/3,                       % Address, Interface, Port: this process listens
                                         % there, and Address is one of its own
@@ -157,9 +159,8 @@ outgoing(Address, Me) :-
     nb_setval(typhon_set_out, true),
     monotonic_time(Start),
     catch(( must_be_endpoint(Address),
-            endpoint_parts(Address, Interface, Port0),
-            ( listens_at(Address, At, Port) -> true
-            ; At-Port = Interface-Port0 ),
+            endpoint_parts(Address, Interface, _),
+            connects_to(Address, At, Port),
             connect(At, Port, Socket),
             with_streams(open_streams(Socket, In, Out), In, Out,
                          meet(client(Start), In, Out, Me, true,
@@ -167,6 +168,20 @@ outgoing(Address, Me) :-
           ),
           error(Formal, _),
           missed(Address, Formal)).
+
+%   connects_to(+Address, -Interface, -Port): the process of an address may be
+%   elsewhere: another that stands in for it has its address, and its id.
+
+connects_to(Address, Interface, Port) :-
+    listens_at(Address, Interface, Port),
+    !.
+connects_to(Address, Interface, Port) :-
+    leads_to(Address, Real),
+    !,
+    must_be_endpoint(Real),
+    endpoint_parts(Real, Interface, Port).
+connects_to(Address, Interface, Port) :-
+    endpoint_parts(Address, Interface, Port).
 
 typhon_handshake:greeted :-
     nb_current(typhon_set_out, true),
@@ -182,7 +197,8 @@ missed(Address, Formal) :-
     (   Formal = socket_error(econnrefused, _)
     ->  peer_gone(Address)
     ;   Formal = permission_error(authenticate, peer, Why),
-        ( Why = version(_) ; Why == other ; refusal_text(Why, _) )
+        ( Why = version(_) ; memberchk(Why, [other,superseded])
+        ; refusal_text(Why, _) )
     ->  report(warning, foreign_processes, Address,
                typhon(endpoint, foreign(Address, Formal)))
     ;   true
@@ -663,4 +679,5 @@ ours(silent, 'its slot was given to another client').
 ours(crowd, 'all slots are taken').
 ours(line, 'it sent a line that is too long').
 ours(other, 'it claims to be another process').
+ours(superseded, 'it is an earlier start of a process that was started again').
 ours(several, 'for several reasons').

@@ -91,6 +91,7 @@ has no pusher, only held posts wait.
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/durable',
               [durable_on/0, flush_sends/0, send_after_commit/2]).
+:- use_module('../base/bounds', [bounded/3]).
 :- use_module('../base/error_text', [print_error/2]).
 :- use_module('../base/reports', [report/4]).
 :- use_module('../base/monotonic', [monotonic_time/1]).
@@ -120,6 +121,7 @@ has no pusher, only held posts wait.
 :- dynamic
     session/2,                          % Key, Session
     route/2,                            % Address, Session
+    started/3,                          % Process, Proof, Start: the latest
     unsettled/3,                        % Key, Number, Token: received
     objection/3,                        % Key, Number, Answer
     transport/3,                        % Key, Thread, Out: can be written to
@@ -183,13 +185,30 @@ session_proof(session(_, _, _, _, peer(_, _, Proof), _), Proof).
 %
 %   @error permission_error(authenticate, peer, other) if the session is
 %   that of another peer, whose key this peer uses
+%   @error permission_error(authenticate, peer, superseded) if a later start of
+%   that process is known
 
 session_open(Key, Hello-Proof, Codec, Session) :-
     with_mutex(typhon_session,
-               open_session(Key, Hello, Proof, Codec, Session)),
+               ( must_be_latest(Hello, Proof),
+                 open_session(Key, Hello, Proof, Codec, Session) )),
     (   session_proof(Session, Proof)
     ->  true
     ;   permission_error(authenticate, peer, other)
+    ).
+
+%   A process may have been started again elsewhere while it was suspended.  The
+%   starts that a peer claims count for peers of that proof.
+
+must_be_latest(Hello, Proof) :-
+    hello_peer(Hello, Process, Start, _),
+    (   started(Process, Proof, Latest),
+        Start =< Latest
+    ->  ( Start =:= Latest -> true
+        ; permission_error(authenticate, peer, superseded) )
+    ;   retractall(started(Process, Proof, _)),
+        bounded(started(_, _, _), typhon_peer_cache:contacts,
+                assertz(started(Process, Proof, Start)))
     ).
 
 open_session(Key, _, _, _, Session) :-
