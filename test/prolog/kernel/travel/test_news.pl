@@ -89,7 +89,9 @@ wrapped(Peer, Head, Wrapped, Body) :-
 %   each post that follows from Acts, if moves are posted after a pause of
 %   Pause seconds.
 
-:- dynamic post/1.
+:- dynamic
+    post/1,
+    fails/1.                            % Formal: of the next post
 
 sent_with_pause(Pause, Acts, Posts) :-
     with_settings([typhon_news:news_pause=Pause],
@@ -103,12 +105,17 @@ sent_with_pause(Pause, Acts, Posts) :-
                         unwrap_predicate(typhon_news:posted/3, test_news) ))),
     findall(Post, retract(post(Post)), Posts).
 
+posted(_) :-
+    retract(fails(Formal)),
+    throw(error(Formal, _)).
 posted(All) :-
     length(All, Count),
     assertz(post(Count)).
 
 act(tell(Id, News)) :-
     news_send('127.0.0.1:1', Id, News).
+act(fails(Formal)) :-
+    assertz(fails(Formal)).
 act(hurry) :-
     news_hurry.
 act(waits) :-                           % for more, or is gone already
@@ -152,6 +159,15 @@ test(end_is_sent_at_once_with_all_waiting_news, Posts == [2]) :-
 test(waiting_news_are_sent_on_demand, Posts == [1]) :-
     at(1, News),
     sent_with_pause(60, [tell(x, News), hurry], Posts).
+test(error_of_a_commit_does_not_end_the_courier,
+     [ forall(member(Formal, [ journal_unreachable(there, why),
+                               journal_damaged(there, why),
+                               journal_unwritten(there, why),
+                               resource_error(journal_space),
+                               permission_error(open, journal, there) ])),
+       Posts == [1] ]) :-
+    at(1, News),
+    sent_with_pause(0, [fails(Formal), tell(x, News)], Posts).
 test(pending_news_are_sent_when_the_process_ends) :-
     with_peers([a, b], last_news).
 
