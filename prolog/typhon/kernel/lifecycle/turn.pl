@@ -199,6 +199,9 @@ task_goals(Task, Goals) :-
     !.
 task_goals(leave(Dest, move(Dest), Goals, _), [move(Dest)|Goals]) :-
     !.
+task_goals(leave(Dest, wait(Hole, _), Goals, Since), All) :-
+    !,
+    task_goals(leave(Dest, Hole, Goals, Since), All).
 task_goals(_, [true]).
 
 %   not_completed(+Id, +Goals) is semidet.
