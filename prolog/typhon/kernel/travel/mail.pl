@@ -235,7 +235,8 @@ one_message(Id-Letters, message(Id, Mail, Left)) :-
 %!  mail_admit(+Letter, +Id, +Mail) is det.
 %
 %   Mail, which was kept elsewhere for Id under the name Letter, goes on its way,
-%   unless it has done so before.
+%   unless it has done so before.  Where senders are checked, no process proves
+%   whose it is: messages of agents are refused.
 
 mail_admit(Letter, Id, Mail) :-
     unit_of_work(admit(Letter, Id, Mail)).
@@ -247,7 +248,7 @@ admit(Letter, Id, Mail) :-
     bounded(admitted(_), typhon_mail:admitted,
             durable_assertz(admitted(Letter))),
     max_forwards(Max),
-    pass_on(Id, letter(Mail, Max)).
+    letter_receive(Id, [], Mail, Max, none).
 
 :- durable(admitted, Letter, 0, '', admitted(Letter)).
 

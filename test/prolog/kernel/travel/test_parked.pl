@@ -240,7 +240,7 @@ test(wait_outlives_the_process, Result == host_unreachable(Host)-Alpha) :-
     no_leaks(over_a_restart(Host, A, 100, true,
         ( address(alpha, Alpha),
           offer(Transfer, Seconds),
-          assertion(Seconds < 100),
+          assertion(( Seconds > 0, Seconds < 100 )),
           transfer_stays(Transfer, host_unreachable(Host)),
           agent_result(A, Result, 20) ))).
 test(agent_that_is_parked_no_more_is_sent_again, Result == none-Beta) :-
