@@ -283,8 +283,6 @@ test(force, True-O == disposed-done) :-
                  runaway_to(B, Id),
                  peer_agent(b, [ (:- agent(o)),
                                  (main :- receive(_-go)) ], [], Other),
-                 peer_do(b, wait_until(( agent_property(Id, busy(S)),
-                                         S > 0.05 ), 10)),
                  peer_do(a, agent_dispose(Id, [force(0.1)])),
                  peer_do(a, agent_join(Id, True, 10)),
                  peer_do(b, \+ agent_here(Id)),
@@ -296,8 +294,6 @@ test(warning, true(sub_string(All, _, _, _, "runs on"))) :-
     with_peers([a, b],
                ( peer_host(b, B),
                  runaway_to(B, Id),
-                 peer_do(b, wait_until(( agent_property(Id, busy(S)),
-                                         S > 0.05 ), 10)),
                  peer_do(a, set_setting(typhon_disposal:heed_seconds, 0.2)),
                  peer_do(a, agent_dispose(Id)),
                  peer_messages(a, Lines),
@@ -321,10 +317,16 @@ test(agent_that_ends_during_a_listing_is_not_queried_elsewhere, Found == []) :-
                  peer_do(b, findall(A, agent_property(A, state(_)), Found)),
                  peer_signal(a, cont) )).
 
+%   runaway_to(+Host, -Id): Id runs on Host, of the process b.  Before its move
+%   it may be busy on a, while the code that runs it is loaded.
+
 runaway_to(Host, Id) :-
     peer_agent(a, [ (:- agent(r)),
                     (main :- move(Host), lp),
-                    (lp :- lp) ], [], Id).
+                    (lp :- lp) ], [], Id),
+    peer_do(b, wait_until(( agent_here(Id),
+                            agent_property(Id, busy(S)),
+                            S > 0.05 ), 10)).
 
 again(B) :-
     peer_agent(a, [ (:- agent(r)), (main :- move(B)) ], [], Id),
