@@ -7,7 +7,8 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../base/monotonic', [monotonic_time/1]).
+:- use_module('../base/monotonic',
+              [deadline/2, monotonic_time/1, poll_within/2]).
 :- use_module('../base/own_thread', [abort_quietly/0, in_own_thread/1]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../base/durable', [durable_closed/0]).
@@ -104,23 +105,28 @@ wait_for_end(noted, Agent, none) :-
     ).
 wait_for_end(noted, Agent, Seconds0) :-
     Seconds is max(0, Seconds0),
-    monotonic_time(Now),
     setting(force_seconds, More),
-    Deadline is Now+Seconds+More,
+    Most is Seconds+More,
+    deadline(Most, Deadline),
     in_own_thread(( ends_within(Agent, Seconds)
                   ; force(Agent, Deadline)
                   )).
 
 %   ends_within(+Agent, +Seconds) is semidet: Agent ends within Seconds.  Then
 %   this ends an agent that is faulty, or at rest because no worker could run
-%   it.
+%   it.  An order that follows an agent under way may be answered by `none` or
+%   an error while the agent runs on: then it is given again.
 
 ends_within(Agent, Seconds) :-
-    catch(ignore(agent_urge(Agent, order(end), Seconds, _)),
+    deadline(Seconds, Deadline),
+    poll_within(Seconds, has_ended(Agent, Deadline)).
+
+has_ended(Agent, Deadline) :-
+    catch(agent_urge(Agent, order(end), Deadline, answer(ended)),
           error(timeout_error(_, _), _),
           fail),
     !.
-ends_within(Agent, _) :-
+has_ended(Agent, _) :-
     (   agent_asked(Agent, dispose, 10, State)
     ->  State == ended
     ;   true

@@ -2,7 +2,7 @@
           [ agent_ask/4,                % +Agent, +Question, +Seconds, -Answer
             agent_asked/4,              % +Agent, +Question, +Seconds, -Term
             agent_ask_here/4,           % +Agent, +Question, +Seconds, -Answer
-            agent_urge/4,               % +Agent, +Question, +Seconds, -Answer
+            agent_urge/4,               % +Agent, +Question, +Deadline, -Answer
             question_answered/2,        % +Asker, +Answer
             agent_named/2,              % +Agent, -Id
             agent_once_named/2,         % +Agent, -Id
@@ -86,14 +86,12 @@ agent_ask_here(Agent, Question, Seconds, Answer) :-
     Deadline is Now+Seconds,
     answer_of(Agent, here(Question, Agent), by(Deadline), Answer).
 
-%!  agent_urge(+Agent, +Question, +Seconds, -Answer) is semidet.
+%!  agent_urge(+Agent, +Question, +Deadline, -Answer) is semidet.
 %
-%   As agent_ask/4, but waits by real time even where time is virtual,
-%   and does not let virtual time run.
+%   As agent_ask/4, but waits by real time even where time is virtual, until
+%   Deadline, a monotonic_time/1, and does not let virtual time run.
 
-agent_urge(Agent, Question, Seconds, Answer) :-
-    monotonic_time(Now),
-    Deadline is Now+Seconds,
+agent_urge(Agent, Question, Deadline, Answer) :-
     ask(Agent, Question, by_day(Deadline), Answer).
 
 ask(Agent, Question, Deadline, Answer) :-

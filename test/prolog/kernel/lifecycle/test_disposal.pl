@@ -4,7 +4,7 @@
 :- use_module('../../../lib/peers').
 :- use_module(library(plunit)).
 :- use_module(library(apply), [maplist/2]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [last/2, member/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(settings), [set_setting/2]).
 :- use_module(library(typhon)).
@@ -128,6 +128,30 @@ test(agent_that_stops_in_time_is_not_forced, Ms == []) :-
                ( create([(main :- sleep(0.01), main)], A),
                  capturing(agent_dispose(A, [force(10)]), Ms),
                  gone(A) )).
+
+%   The process from which an agent was under way answers so if it cannot
+%   forward the order.
+
+test(only_its_end_counts_as_the_end,
+     [ forall(member(Answer, [none, error(timeout_error(order, agent))])) ]) :-
+    with_hosts([alpha],
+               ( create([ (main :- over -> true ; main),
+                          (over :- sense(over)) ], A),
+                 wait_until(running_for(A, 0.02), 10),
+                 thread_create(agent_dispose(A, [force(1000)]), T),
+                 urged(A, 1, Asker),
+                 typhon_questions:question_answered(Asker, Answer),
+                 urged(A, 2, _),
+                 remote(alpha, leave(over)),
+                 thread_join(T, true),
+                 gone(A) )).
+
+urged(Agent, Times, Asker) :-
+    wait_until(( typhon_mailbox:agent_orders(Agent, Orders),
+                 findall(By, member(asked(end, By), Orders), Askers),
+                 length(Askers, Times) ), 10),
+    last(Askers, Asker).
+
 test(no_choice_point_is_left, Det == [true,true]) :-
     disposing(0.1, ( start(loops, A),
                      capturing(call_cleanup(agent_dispose(A), D1 = true), _),
