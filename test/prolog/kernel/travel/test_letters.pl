@@ -80,8 +80,8 @@ waits_for_way(Id) :-
     wait_until(peer_do(a, tried_in_vain(Id)), 30),
     reconnected,
     notes_all(20),
-    peer_messages(a, []),
-    peer_messages(b, []).
+    \+ said(a, " lost: ", Id),
+    \+ said(b, " lost: ", Id).
 
 waits_in_order(Id) :-
     sends(Id, 1, 20),
