@@ -63,11 +63,11 @@ relay_stop(Relay) :-
 
 %!  relay_cut(+Relay) is det.
 %
-%   Close the connections that are open now.
+%   Close the connections that are open now, and wait until they are closed.
 
 relay_cut(Relay) :-
     relay_pumps(Relay, up, Pumps),
-    maplist(signal, Pumps).
+    maplist(await_end, Pumps).
 
 %!  relay_refuse(+Relay) is det.
 %!  relay_admit(+Relay) is det.
@@ -187,8 +187,11 @@ signal(Thread) :-
 %   A signal that comes just before a system call does not interrupt it.
 
 end_thread(Thread) :-
-    wait_until(signalled_to_end(Thread), 30),
+    await_end(Thread),
     thread_join(Thread, _).
+
+await_end(Thread) :-
+    wait_until(signalled_to_end(Thread), 30).
 
 signalled_to_end(Thread) :-
     (   thread_property(Thread, status(running))
