@@ -15,7 +15,7 @@ order/3 has one clause for each command, and fails if the answer is negative.
 :- use_module(library(apply), [exclude/3, maplist/2, maplist/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
-:- use_module('../../prolog/typhon/kernel/base/monotonic', [monotonic_time/1]).
+:- use_module('../../prolog/typhon/kernel/base/monotonic', [poll_within/2]).
 :- use_module('../../prolog/typhon',
               [ agent_check/1, agent_dispose/1, agent_join/3, agent_move/3,
                 agent_property/2, host_property/2, remote/2 ]).
@@ -60,7 +60,7 @@ order(stop, [Host], Options) :-
     address_parts(Address, Name, _),
     request_stop(Host, Name),
     option(timeout(Seconds), Options, 20),
-    within(Seconds, is_gone(Host)).
+    poll_within(Seconds, is_gone(Host)).
 
 %   A process started by the command line ends in order, as by a signal. The
 %   answer may be lost with the process. A thread handle cannot be sent in an
@@ -193,19 +193,3 @@ is_gone(Host) :-
 means_gone(existence_error(host, _)).
 means_gone(host_unreachable(_)).
 means_gone(connection_lost(_)).
-
-:- meta_predicate within(+, 0).
-
-within(Seconds, Goal) :-
-    monotonic_time(Now),
-    Deadline is Now+Seconds,
-    try(Goal, Deadline).
-
-try(Goal, _) :-
-    call(Goal),
-    !.
-try(Goal, Deadline) :-
-    monotonic_time(Now),
-    Now < Deadline,
-    sleep(0.05),
-    try(Goal, Deadline).

@@ -7,7 +7,7 @@
 :- use_module(library(error),
               [existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(option), [option/2, option/3]).
-:- use_module('../kernel/base/monotonic', [monotonic_time/1]).
+:- use_module('../kernel/base/monotonic', [deadline/2, monotonic_time/1]).
 :- use_module('../kernel/base/durable', [durable_closed/0]).
 :- use_module('../kernel/base/error_text', [error_lines/3, print_error/2]).
 :- use_module('../kernel/base/names', [counted/3, must_be_name/2]).
@@ -242,8 +242,7 @@ write_event(lost(Count0, _), _, _, lost(Count, Again)) :-
     next_try(Again).
 
 next_try(Again) :-
-    monotonic_time(Now),
-    Again is Now+1.
+    deadline(1, Again).
 
 %   The rest of the buffer must not be written later, in the middle of a line.
 

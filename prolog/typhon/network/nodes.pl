@@ -14,8 +14,7 @@
                                         % :Watch, -Results
             nodes_send/3,               % +Network, +Ps, +Order
             nodes_peers/2,              % +Network, -Peers
-            unwatched/1,                % +Ps
-            deadline/2                  % +Seconds, -Deadline
+            unwatched/1                 % +Ps
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(debug), [debug/3]).
@@ -24,7 +23,7 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../kernel/base/fifo', [fifo_send/2]).
 :- use_module('../kernel/base/monotonic',
-              [ monotonic_time/1, poll_within/2, wait_within/2 ]).
+              [ deadline/2, monotonic_time/1, poll_within/2, wait_within/2 ]).
 :- use_module('../kernel/base/error_lines', [harmless_error/2]).
 :- use_module('../kernel/wire', [endpoint_address/1, endpoint_request/4]).
 :- use_module(children, [child_secret/1]).
@@ -252,9 +251,3 @@ take(_, Ps, Ps, Others, Others).
 
 prolog:error_message(existence_error(carrier, Network-P)) -->
     [ 'Process ~w of ~w is not running'-[P, Network] ].
-
-%!  deadline(+Seconds, -Deadline) is det.
-
-deadline(Seconds, Deadline) :-
-    monotonic_time(Now),
-    Deadline is Now + Seconds.

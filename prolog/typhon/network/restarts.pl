@@ -10,11 +10,11 @@
 :- use_module(library(lists), [member/2, min_member/2, selectchk/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../kernel/base/fifo', [fifo_empty/2]).
-:- use_module('../kernel/base/monotonic', [monotonic_time/1, poll_within/2]).
+:- use_module('../kernel/base/monotonic',
+              [deadline/2, monotonic_time/1, poll_within/2]).
 :- use_module('../kernel/base/error_text', [print_error/2]).
 :- use_module('../kernel/base/server',
               [server_cast/2, server_start/4, server_stop/1]).
-:- use_module(nodes, [deadline/2]).
 
 /** <module> Restarts of the processes of a network
 

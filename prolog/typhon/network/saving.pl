@@ -10,7 +10,7 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(sha), [hash_atom/2, sha_hash/3]).
 :- use_module('../kernel/base/private', [output_file/2, private_write/2]).
-:- use_module('../kernel/base/monotonic', [monotonic_time/1]).
+:- use_module('../kernel/base/monotonic', [deadline/2, monotonic_time/1]).
 :- use_module('../kernel/base/text', [term_text/2, text_term/2]).
 :- use_module('../kernel/host',
               [context_now/2, time_due/3, time_kind/1, time_now/1]).
@@ -102,8 +102,7 @@ runs_here(Network) :-
 
 collect_state(Network, Ps, State, Terms) :-
     setting(hold_seconds, Seconds),
-    monotonic_time(Now),
-    Deadline is Now+Seconds,
+    deadline(Seconds, Deadline),
     hold(Network, Ps, Deadline),
     about(Network, State, Deadline, About),
     maplist(part(Network, Deadline), Ps, Parts),

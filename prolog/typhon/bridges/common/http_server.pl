@@ -2,7 +2,6 @@
           [ http_server_open/4,         % +Server, +Address, +Most, :Serve
             http_server_close/1,        % +Server
             client_becomes/1,           % +State
-            http_deadline/2,            % +Seconds, -Deadline
             http_head/4,                % +In, +Most, +Deadline, -Bytes
             http_before/2,              % +Deadline, +In
             with_bytes/3,               % :Write, -In, :Goal
@@ -214,12 +213,6 @@ end_if_displaced :-
                 /*******************************
                 *       HEADS AND BODIES       *
                 *******************************/
-
-%!  http_deadline(+Seconds, -Deadline) is det.
-
-http_deadline(Seconds, Deadline) :-
-    monotonic_time(Now),
-    Deadline is Now+Seconds.
 
 %!  http_before(+Deadline, +In) is det.
 %

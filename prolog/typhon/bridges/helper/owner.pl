@@ -6,7 +6,7 @@
             answer_unwanted/1           % +Id
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
+:- use_module('../../kernel/base/monotonic', [deadline/2, monotonic_time/1]).
 :- use_module('../json', [json_text/2]).
 :- use_module('../../kernel/base/server', [server_answer/2, server_self/1]).
 :- use_module(process,
@@ -117,8 +117,7 @@ begin(owner(Name, Command, When, Role, _), Wait, State) :-
 
 down(asked, _, Answer, down(asked, 0, Answer)).
 down(always, Wait0, Answer, down(Time, Wait, Answer)) :-
-    monotonic_time(Now),
-    Time is Now+Wait0,
+    deadline(Wait0, Time),
     Wait is min(10, 2*Wait0).
 
 %   A restarted helper first gets the state that it needs.

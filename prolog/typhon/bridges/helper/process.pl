@@ -14,7 +14,7 @@
 :- use_module(library(process), [process_kill/2, process_wait/3]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
+:- use_module('../../kernel/base/monotonic', [deadline/2, monotonic_time/1]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../json', [json_dict/2]).
 :- use_module('../../kernel/base/server', [server_cast/2]).
@@ -129,9 +129,8 @@ follow(Owner, Pid, Out, Heard) :-
     catch(lines(Out, Heard), error(Formal, _),
           debug(typhon(helper), 'reading from a helper: ~p', [Formal])),
     close(Out, [force(true)]),
-    monotonic_time(Now),
     end_seconds(Seconds),
-    Deadline is Now+Seconds,
+    deadline(Seconds, Deadline),
     wait(Owner, Pid, Deadline, Status),
     ignore(server_cast(Owner, ended(Status))).
 

@@ -17,7 +17,7 @@
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
-:- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
+:- use_module('../../kernel/base/monotonic', [deadline/2, monotonic_time/1]).
 :- use_module('../../kernel/base/options', [check_options/2]).
 :- use_module(brick, [nxt_command/4]).
 
@@ -159,8 +159,7 @@ nxt_turn_to(Brick, Motor, Power, Angle, Seconds) :-
     must_be(between(1, 100), Power),
     must_be(integer, Angle),
     must_be(between(0.0, 36000), Seconds),
-    monotonic_time(Now),
-    Deadline is Now+Seconds,
+    deadline(Seconds, Deadline),
     turn_until_near(Brick, Motor, Power, Angle, Deadline).
 
 turn_until_near(Brick, Motor, Power, Angle, Deadline) :-
@@ -279,8 +278,7 @@ nxt_moves(Brick, Motor) :-
 
 nxt_await(Brick, Motors, Seconds) :-
     must_be(between(0.0, 36000), Seconds),
-    monotonic_time(Now),
-    Deadline is Now+Seconds,
+    deadline(Seconds, Deadline),
     (   Motors == all
     ->  List = [a,b,c]
     ;   is_list(Motors)

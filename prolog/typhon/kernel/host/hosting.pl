@@ -17,7 +17,7 @@
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/names', [must_be_name/2]).
-:- use_module('../base/monotonic', [monotonic_time/1]).
+:- use_module('../base/monotonic', [deadline/2]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../base/own_thread', [in_own_thread/1, stop_steps/1]).
 :- use_module('../base/durable',
@@ -316,9 +316,8 @@ close_last(Name) :-
     ).
 
 evacuate(Name) :-
-    monotonic_time(Now),
     setting(stop_seconds, Seconds),
-    Deadline is Now+Seconds,
+    deadline(Seconds, Deadline),
     stop_steps([each(evacuate(Name, Deadline))]).
 
 local_name(Host, Name) :-

@@ -5,7 +5,7 @@
           ]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../base/monotonic', [monotonic_time/1]).
+:- use_module('../base/monotonic', [deadline/2, monotonic_time/1]).
 :- use_module('../base/durable', [durable_on/0, durable_post/3]).
 :- use_module('../base/reports', [report/4]).
 :- use_module('../wire', [endpoint_post/3, endpoint_post_by/4]).
@@ -159,9 +159,8 @@ age(ended(_, _, Hops), age(Hops, 2, 0, 0)).  % fewer hops: a copy that was
 %   again, in case it is too slow; so the home may get it twice.
 
 typhon_runtime:ending(before) :-
-    monotonic_time(Now),
     setting(typhon_endpoint:flush_time, Seconds),
-    Deadline is Now+Seconds,
+    deadline(Seconds, Deadline),
     forall(courier(Home),
            ( flush(Home, Deadline),
              give_up(Home) )).

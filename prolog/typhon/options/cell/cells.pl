@@ -14,7 +14,7 @@
             cells_list/1                % -Cells
           ]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
+:- use_module('../../kernel/base/monotonic', [deadline/2, monotonic_time/1]).
 :- use_module('../../kernel/base/server',
               [ server_answer/2, server_call/4, server_cast/2, server_start/4,
                 server_stop/1 ]).
@@ -319,14 +319,14 @@ serves(stop, _, _) :-
 %   The server retries once a second while agents wait for a missing cell.
 
 set_timer(until(Stamp, none)) :-
-    monotonic_time(Now),
     (   key_without_cell(_)
-    ->  Stamp is Now+1
+    ->  Seconds = 1
     ;   bound(_, _)
     ->  setting(idle, Idle),
-        Stamp is Now+Idle/4
-    ;   Stamp = inf
-    ).
+        Seconds is Idle/4
+    ;   Seconds = inf
+    ),
+    deadline(Seconds, Stamp).
 
 %   provide: give a cell to each key whose agents have none, within the limit of
 %   processes; then start a spare cell.

@@ -9,7 +9,7 @@
 :- use_module(library(error), [existence_error/2]).
 :- use_module(library(lists), [append/3, reverse/2]).
 :- use_module(library(rbtrees), [rb_insert_new/4, rb_new/1]).
-:- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
+:- use_module('../../kernel/base/monotonic', [deadline/2]).
 :- use_module('../../kernel/base/durable', [crash_point/1, durable_closed/0]).
 :- use_module('../../kernel/base/fifo', [fifo_empty/2]).
 :- use_module('../../kernel/base/server',
@@ -311,8 +311,7 @@ commits(begin, State, Next) :-
     commit_now(State, Next).
 commits(idle, State, until(Stamp, State)) :-
     idle_seconds(Seconds),
-    monotonic_time(Now),
-    Stamp is Now+Seconds.
+    deadline(Seconds, Stamp).
 commits(now, State, Next) :-
     commit_now(State, Next).
 commits(timeout, State, Next) :-
@@ -333,5 +332,4 @@ not_committed(Error, State, until(Stamp, State)) :-
     ),
     set_flag(typhon_journal_awake, 2),
     again_seconds(Seconds),
-    monotonic_time(Now),
-    Stamp is Now+Seconds.
+    deadline(Seconds, Stamp).

@@ -6,7 +6,7 @@
 :- use_module(library(pairs), [group_pairs_by_key/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/base/bounds', [space_used_up/1]).
-:- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
+:- use_module('../../kernel/base/monotonic', [deadline/2, monotonic_time/1]).
 :- use_module('../../kernel/base/server', [server_start/4, server_stop/1]).
 :- use_module('../../kernel/base/error_text', [is_tree/2]).
 :- use_module('../../kernel/program',
@@ -182,8 +182,7 @@ enforces(timeout, State, Next) :-
     set_timer(State, Next).
 
 set_timer(State, until(Stamp, State)) :-
-    monotonic_time(Now),
-    Stamp is Now+0.1.
+    deadline(0.1, Stamp).
 
 look :-
     forall(( turn(Agent, Host, Thread, Seconds),
@@ -233,8 +232,8 @@ another_runs(Thread) :-
 
 pause_in(Thread, Agent) :-
     setting(pause, Part),
-    monotonic_time(Now),
-    Until is Now+0.1*Part,
+    Seconds is 0.1*Part,
+    deadline(Seconds, Until),
     signal(Thread, pause(Agent, Until)).
 
 %   used(+What, +Host, -Used): Used is a list of Owner-(Amount-Agent).

@@ -25,7 +25,7 @@ of its connection.  The connection manager limits its duration.
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2]).
 :- use_module(library(settings), [setting/2]).
-:- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
+:- use_module('../../kernel/base/monotonic', [deadline/2]).
 :- use_module('../../kernel/wire',
               [ line_read/3, line_write/2, manager_notify/1,
                 transport_octets/1 ]).
@@ -183,8 +183,7 @@ welcome(server, _, SOut) :-
     line_write(SOut, "typhon tls").
 welcome(client, SIn, _) :-
     setting(typhon_handshake:handshake_time, Seconds),
-    monotonic_time(Now),
-    Deadline is Now+Seconds,
+    deadline(Seconds, Deadline),
     line_read(SIn, Deadline, Line),
     (   Line == "typhon tls"
     ->  true
@@ -205,8 +204,7 @@ peer_name(SIn, Name) :-
 in_time(Goal) :-
     setting(typhon_handshake:handshake_time, Seconds),
     thread_self(Me),
-    monotonic_time(Now),
-    Time is Now+Seconds,
+    deadline(Seconds, Time),
     ignore(manager_notify(later(Time, typhon_secure:late(Me)))),
     setup_call_cleanup(
         nb_setval(typhon_shaking, true),

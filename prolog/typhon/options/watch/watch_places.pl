@@ -9,7 +9,7 @@
             place_stopped/2             % +Watch, +Host
           ]).
 :- use_module(library(lists), [append/3, member/2]).
-:- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
+:- use_module('../../kernel/base/monotonic', [deadline/2]).
 :- use_module('../../kernel/host', [address_parts/3]).
 :- use_module(event_sender, [time_at/2]).
 
@@ -165,8 +165,7 @@ still_wanted(Watch, Endpoint, Lost) :-
     ).
 
 again_later(Watch, Endpoint, Pause) :-
-    monotonic_time(Now),
-    Again is Now+Pause,
+    deadline(Pause, Again),
     longest_pause(Longest),
     Next is min(Longest, 2*Pause),
     put_state(Watch, Endpoint, down(Again, Next)).

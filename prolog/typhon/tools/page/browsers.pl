@@ -9,7 +9,8 @@
 :- use_module(library(lists), [reverse/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/base/fifo', [fifo_send/2]).
-:- use_module('../../kernel/base/monotonic', [monotonic_time/1, poll_within/2]).
+:- use_module('../../kernel/base/monotonic',
+              [deadline/2, monotonic_time/1, poll_within/2]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../bridges/json', [json_text/2]).
 :- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
@@ -131,8 +132,7 @@ send_frame(Events0, Next) :-
 
 begin_frame(Due, until(Beat, frame(Due, 0, []))) :-
     setting(heartbeat_seconds, Pause),
-    monotonic_time(Now),
-    Beat is Now+Pause.
+    deadline(Pause, Beat).
 
 send_events(_, _) :-
     \+ browser(_),

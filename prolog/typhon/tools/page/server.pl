@@ -10,11 +10,11 @@
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/base/error_lines', [error_text/2]).
+:- use_module('../../kernel/base/monotonic', [deadline/2]).
 :- use_module('../../bridges/json', [json_dict/2, json_text/2]).
 :- use_module('../../bridges/common',
-              [ client_becomes/1, http_before/2, http_deadline/2,
-                http_head/4, http_server_close/1, http_server_open/4,
-                with_bytes/3 ]).
+              [ client_becomes/1, http_before/2, http_head/4,
+                http_server_close/1, http_server_open/4, with_bytes/3 ]).
 :- use_module(browser_orders, [order_run/2]).
 :- use_module(browsers, [browser_serve/2, browsers_start/0, browsers_stop/0]).
 :- use_module(editor,
@@ -274,7 +274,7 @@ client(none, Out) :-
 client(In, Out) :-
     setting(typhon_page_reception:request_seconds, Seconds),
     set_stream(Out, timeout(Seconds)),
-    http_deadline(Seconds, Deadline),
+    deadline(Seconds, Deadline),
     setting(typhon_page_reception:head_bytes, Most),
     http_head(In, Most, Deadline, Bytes),
     client_becomes(busy),
@@ -308,7 +308,7 @@ switched(_, _, _) =>
 
 with_body(In, Length, Body, Goal) :-
     setting(typhon_page_reception:request_seconds, Seconds),
-    http_deadline(Seconds, Deadline),
+    deadline(Seconds, Deadline),
     with_bytes(copied(In, Length, Deadline), Body, Goal).
 
 copied(In, Left, Deadline, Out) :-

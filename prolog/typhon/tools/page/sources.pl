@@ -11,7 +11,7 @@
 :- use_module(library(option), [option/2]).
 :- use_module(library(pairs), [group_pairs_by_key/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
+:- use_module('../../kernel/base/monotonic', [deadline/2]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
 :- use_module('../../kernel/base/server',
@@ -126,8 +126,7 @@ handle(timeout, State, Next) :-
 
 search_later(State, until(Stamp, State)) :-
     setting(renew_seconds, Seconds),
-    monotonic_time(Now),
-    Stamp is Now+Seconds.
+    deadline(Seconds, Stamp).
 
 :- meta_predicate printing_errors(0).
 
