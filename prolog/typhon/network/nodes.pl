@@ -169,8 +169,10 @@ result(late, Node, _) :-
 %   Send Order to the children Ps. Results are pairs P-Result, in the order of
 %   their arrival. Result is a result of endpoint_request/4, `down` if the child
 %   has ended, which the endpoint alone cannot know, or `late`. Before each
-%   wait for an answer, of at most a second, call(Watch, Waiting) is called with
-%   the children that have not answered.
+%   wait for an answer call(Watch, Waiting) is called with the children that
+%   have not answered. A wait is of at most a second, unless Watch is
+%   `unwatched`: networks are often started in the setup of a cleanup, where a
+%   wait that expires may hang, see typhon_own_thread.
 
 nodes_ask(Network, Ps, Order, Seconds, Watch, Results) :-
     functor(Order, What, _),            % arguments may contain secrets
@@ -234,15 +236,21 @@ answers([], _, _, _, []) :-
 answers(Ps, Queue, Deadline, Watch, Results) :-
     call(Watch, Ps),
     monotonic_time(Now),
-    Slice is max(0, min(1, Deadline-Now)),
+    Left is max(0, Deadline-Now),
+    slice(Watch, Left, Slice),
     (   wait_within(Slice, thread_get_message(Queue, Answer))
     ->  take(Answer, Ps, Rest, Results, Others)
-    ;   Now+1 < Deadline
+    ;   Slice < Left
     ->  Rest = Ps,
         Results = Others
     ;   take(_-late, Ps, Rest, Results, Others)
     ),
     answers(Rest, Queue, Deadline, Watch, Others).
+
+slice(_:unwatched, Left, Left) :-
+    !.
+slice(_, Left, Slice) :-
+    Slice is min(1, Left).
 
 take(P-Result, Ps, Rest, [P-Result|Others], Others) :-
     selectchk(P, Ps, Rest),

@@ -8,8 +8,11 @@
 :- use_module(library(apply)).
 :- use_module(library(filesex)).
 :- use_module(library(lists)).
+:- use_module(library(prolog_wrap)).
 :- use_module(library(typhon)).
+:- use_module(library(typhon/kernel/base/fifo), [fifo_empty/2]).
 :- use_module(library(typhon/kernel/travel), [whereabouts/2]).
+:- use_module(library(typhon/network/nodes), []).
 
 /** <module> Tests of agents and hosts in separate processes
 
@@ -429,3 +432,40 @@ stop_beside_a_hanging_one(Seconds, Errors) :-
     findall(Error, member(error-Error, Told), Errors).
 
 :- end_tests(peers_that_hang).
+
+:- begin_tests(orders).
+
+%   Networks are often started in the setup of a cleanup, where a wait that
+%   expires may not end.
+
+test(wait_for_an_order_is_cut_only_to_watch_the_processes,
+     [ forall(member(Watch-Waits, [ (typhon_nodes:unwatched)-[60],
+                                    (=([1]))-[1] ])),
+       Seconds == Waits ]) :-
+    setup_call_cleanup(
+        assertz(typhon_nodes:up(n, 1, '127.0.0.1:1', 0)),
+        awaited(Watch, Seconds),
+        typhon_nodes:nodes_forget(n)).
+
+%   awaited(+Watch, -Waits): Waits are the lengths of the waits for an answer,
+%   which comes during the first, in seconds.
+
+awaited(Watch, Waits) :-
+    message_queue_create(Asked),
+    message_queue_create(Waited),
+    setup_call_cleanup(
+        ( wrap_predicate(typhon_nodes:ask(_, _, OnAnswer), held, _,
+                         thread_send_message(Asked, OnAnswer)),
+          wrap_predicate(typhon_monotonic:wait_within(Left, _), seen, Wait,
+                         ( thread_send_message(Waited, Left),
+                           thread_get_message(Asked, Answers),
+                           call(Answers, done),
+                           Wait )) ),
+        typhon_nodes:nodes_ask(n, [1], alive, 60, Watch, [1-done]),
+        ( unwrap_predicate(typhon_nodes:ask/3, held),
+          unwrap_predicate(typhon_monotonic:wait_within/2, seen) )),
+    fifo_empty(Waited, Exact),
+    maplist([S, W]>>(W is round(S)), Exact, Waits),
+    maplist(message_queue_destroy, [Asked, Waited]).
+
+:- end_tests(orders).
