@@ -80,6 +80,9 @@ patient(agent_join(Agent, Outcome, S), S, agent_join(Agent, Outcome, L), L) :-
 patient(agent_result(Agent, Result, S), S, agent_result(Agent, Result, L), L).
 patient(thread_get_message(Queue, M, [timeout(S)]), S,
         thread_get_message(Queue, M, [timeout(L)]), L).
+patient(endpoint_call(To, Kind, Term, Answer, S), S,
+        endpoint_call(To, Kind, Term, Answer, L), L) :-
+    nonvar(Answer).
 patient(set_stream(Stream, timeout(S)), S, set_stream(Stream, timeout(L)), L).
 
 :- dynamic user:goal_expansion/2.
