@@ -11,6 +11,7 @@
             with_settings/2,            % +Values, :Goal
             wait_until/2,               % :Goal, +Seconds
             elapsed/2,                  % :Goal, -Seconds
+            soon/2,                     % +Seconds, +Most
             with_swipl/5,               % +Args, -Pid, -In, -Out, :Goal
             python/1,                   % -Executable
             run_swipl/5,                % +Args, +Options, -Status, -Out, -Err
@@ -204,6 +205,14 @@ elapsed(Goal, Seconds) :-
     once(Goal),
     get_time(T1),
     Seconds is T1-T0.
+
+%!  soon(+Seconds, +Most) is semidet.
+%
+%   Seconds are less than Most, on a slow machine than proportionally more.
+
+soon(Seconds, Most) :-
+    patience(Most, Longer),
+    Seconds < Longer.
 
                 /*******************************
                 *             LEAKS            *

@@ -75,7 +75,7 @@ edges_are(Edges, Network) :-
             Expected),
     network_property(Network, edges(Expected)).
 
-test(in_four_processes, true(Seconds < 30)) :-
+test(in_four_processes, true(soon(Seconds, 30))) :-
     network_shape(grid(6, 10), [], _, _, Edges),
     elapsed(with_network(grid(6, 10), [processes(4)], Network, Hosts,
                          four(Edges, Network, Hosts)), Seconds).
@@ -351,7 +351,7 @@ test(warning_names_ten_hosts_and_counts_the_others) :-
 test(hanging_process,
      [ forall(member(Dynamic, [[], [ clock(1000),
                                      dynamic(links(uniform(1,1), 1, 1)) ]])),
-       true(Seconds < 20) ]) :-
+       true(soon(Seconds, 20)) ]) :-
     quiet(elapsed(with_settings([typhon_children:stop_seconds=1],
                                 with_network(ring(8), [processes(4)|Dynamic],
                                              Network, freeze(Network))),
@@ -381,7 +381,7 @@ all_killed(Network) :-
     forall(member(Pid, Pids),
            wait_until(printed(node_down(_, Pid, killed(9), _, _)), 20)).
 
-test(busy_agent_does_not_delay_the_stop, true(Seconds < 25)) :-
+test(busy_agent_does_not_delay_the_stop, true(soon(Seconds, 25))) :-
     Busy = [(:- agent(busy, [])), ( main :- repeat, fail )],
     Soon = set_setting(typhon_hosting:stop_seconds, 0.3),
     elapsed(with_network(ring(4), [processes(2)], _, Hosts,

@@ -6,6 +6,7 @@
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/endpoints').
 :- use_module('../../../lib/plain_client').
+:- use_module('../../../lib/slowness', [patience/2]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(lists), [member/2, sum_list/2]).
@@ -40,10 +41,11 @@ fresh(Goal) :-
 %   No client is refused for being slow; `soon` is much shorter.
 
 patiently(Goal) :-
-    with_settings([typhon_handshake:handshake_time=120], Goal).
+    patience(120, Seconds),
+    with_settings([typhon_handshake:handshake_time=Seconds], Goal).
 
 soon(Seconds) :-
-    assertion(Seconds < 20).
+    assertion(soon(Seconds, 20)).
 
 connected(streams(In, Out)) :-
     endpoint_port(Port),
