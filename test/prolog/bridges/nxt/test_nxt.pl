@@ -12,7 +12,7 @@ LEGO's document, by other code than that of the bridge.
 :- use_module(library(plunit)).
 :- use_module(library(apply), [foldl/4, maplist/3]).
 :- use_module(library(typhon/bridges/json), [json_dict/2]).
-:- use_module(library(lists), [append/2, append/3, member/2]).
+:- use_module(library(lists), [append/2, append/3, member/2, nth1/3]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(typhon/nxt)).
@@ -198,6 +198,22 @@ test(sensor_waits_until_valid, Pressed == true) :-
           nxt_touch(lizzy, 1, _),
           receives(Peer, '000700') )).
 
+%   A telegram that sets up a port makes the helper set up all others anew.
+
+test(sensors) :-
+    with_peer(lizzy, [], Peer,
+        forall(( read_by(Goal, Value, Sensor, Expected),
+                 exchanges(Sensor, Exchanges) ),
+               ( exchange(Peer, lizzy, [[0,5,3,0,0]-[2,5,0]],
+                          nxt_command(lizzy, 'SETINPUTMODE',
+                                      _{port:3, type:0, mode:0}, _)),
+                 exchange(Peer, lizzy, Exchanges, Goal),
+                 assertion(Goal-Value == Goal-Expected) ))).
+test(motors_by_their_state) :-
+    with_peer(moved, [], Peer,
+        forall(moved(Goal, Exchanges),
+               exchange(Peer, moved, Exchanges, Goal))).
+
 test(display) :-
     with_peer(lizzy, [], Peer,
         ( peer_command(Peer, 'answer 02950001000a000600'),
@@ -206,6 +222,17 @@ test(display) :-
     bytes([1,0x95,d(0xA0001),w(431),w(6),
            127,65,65,34,28,0], Expected),
     assertion(Telegram == Expected).
+
+%   exchange(+Peer, +Brick, +Exchanges, :Goal): Goal sends the requests, and no
+%   others, of the pairs Request-Reply.
+
+exchange(Peer, Brick, Exchanges0, Goal) :-
+    append(Exchanges0, [[0,11]-[2,11,0,w(8000)]], Exchanges),
+    forall(member(_-Reply, Exchanges), answer(Peer, Reply)),
+    call(Goal),
+    nxt_battery(Brick, 8000),
+    forall(member(Request-_, Exchanges),
+           ( bytes(Request, Hex), receives(Peer, Hex) )).
 
 exchanged(Peer, Command, Args, Request0, Reply0, Values0) :-
     bytes(Request0, Request),
@@ -258,7 +285,160 @@ sent(floodlight_nxt(lizzy, 3, off), [[0,5,2,6,128]]).
 sent(init_touch_nxt(lizzy, 1, 2), [[0,5,0,1,32], [0,5,1,1,32]]).
 sent(exec_nxt(lizzy, demo), [[0,0,n('demo.rxe',20)]]).
 
+%   read_by(Goal, Value, Sensor, Expected): Value of Goal is Expected with the
+%   Sensor at port 2, analog(Type, Mode, Scaled), or i2c(Written, Read).
+
+read_by(nxt_touch(lizzy, 2, V), V, analog(1, 32, 0), false).
+read_by(nxt_touch(lizzy, 2, V), V, analog(1, 32, 1), true).
+read_by(read_touch_nxt(lizzy, 2, V), V, analog(1, 32, 0), 0).
+read_by(read_touch_nxt(lizzy, 2, V), V, analog(1, 32, 1), 1).
+read_by(nxt_light(lizzy, 2, V), V, analog(5, 128, 41), 41).
+read_by(nxt_light(lizzy, 2, on, V), V, analog(5, 128, 42), 42).
+read_by(nxt_light(lizzy, 2, off, V), V, analog(6, 128, 43), 43).
+read_by(read_light_nxt(lizzy, 2, V), V, analog(5, 128, 44), 44).
+read_by(nxt_sound(lizzy, 2, V), V, analog(7, 128, 45), 45).
+read_by(nxt_sound(lizzy, 2, db, V), V, analog(7, 128, 46), 46).
+read_by(nxt_sound(lizzy, 2, dba, V), V, analog(8, 128, 47), 47).
+read_by(read_sound_nxt(lizzy, 2, V), V, analog(7, 128, 48), 48).
+read_by(nxt_colour(lizzy, 2, V), V, analog(13, 0, Number), Colour) :-
+    nth1(Number, [black, blue, green, yellow, red, white, 7], Colour).
+read_by(nxt_colour_light(lizzy, 2, Lamp, V), V, analog(Type, 0, 49), 49) :-
+    member(Lamp-Type, [red-14, green-15, blue-16, off-17]).
+read_by(nxt_gyro(lizzy, 2, V), V, analog(9, 0, 50), 600).  % raw
+read_by(set_gyroffset_nxt(lizzy, 2), none, analog(9, 0, 51), none).
+read_by(read_gyro_nxt(lizzy, 2, V), V, analog(9, 0, 52), 0).
+read_by(nxt_ultrasonic(lizzy, 2, V), V, i2c([2,0x42], [254]), 254).
+read_by(nxt_ultrasonic(lizzy, 2, V), V, i2c([2,0x42], [255]), inf).
+read_by(read_ultrasonic_nxt(lizzy, 2, V), V, i2c([2,0x42], [254]), 254).
+read_by(read_ultrasonic_nxt(lizzy, 2, V), V, i2c([2,0x42], [255]), 255).
+read_by(nxt_compass(lizzy, 2, V), V, i2c([2,0x44], [3,1]), 259).
+read_by(read_compass_nxt(lizzy, 2, V), V, i2c([2,0x44], [4,1]), 260).
+read_by(nxt_compass_calibrate(lizzy, 2, on), none,
+        i2c([2,0x41,0x43], []), none).
+read_by(nxt_compass_calibrate(lizzy, 2, off), none, i2c([2,0x41,0], []), none).
+read_by(start_compasscalibration_nxt(lizzy, 2), none,
+        i2c([2,0x41,0x43], []), none).
+read_by(stop_compasscalibration_nxt(lizzy, 2), none, i2c([2,0x41,0], []), none).
+read_by(nxt_accelerometer(lizzy, 2, X, Y, Z), [X,Y,Z],
+        i2c([2,0x42], [127,128,255,3,0,2]), [511,-512,-2]).
+read_by(read_accel_nxt(lizzy, 2, X, Y, Z), [X,Y,Z],
+        i2c([2,0x42], [0,1,2,1,2,3]), [1,6,11]).
+read_by(nxt_infrared(lizzy, 2, V), V, i2c([16,0x49], [9]), 9).
+read_by(read_irseeker_nxt(lizzy, 2, V), V, i2c([16,0x49], [8]), 8).
+read_by(nxt_colour_number(lizzy, 2, V), V, i2c([2,0x42], [17]), 17).
+read_by(read_color_nxt(lizzy, 2, V), V, i2c([2,0x42], [16]), 16).
+
+exchanges(analog(Type, Mode, Scaled),
+          [ [0,5,1,Type,Mode]-[2,5,0],
+            [0,7,1]-[2,7,0,1,1,0,Type,Mode,w(600),w(8),w(Scaled),w(9)] ]).
+exchanges(i2c(Written, Read), Exchanges) :-
+    length(Written, Tx),
+    length(Read, Rx),
+    Left is 16-Rx,
+    append(Read, [z(Left)], Data),
+    findall([0,16,1]-[2,16,0,Rx|Data], Rx > 0, Last),
+    append([ [0,5,1,11,0]-[2,5,0], [0,14,1]-[2,14,0,0],
+             [0,15,1,Tx,Rx|Written]-[2,15,0], [0,14,1]-[2,14,0,Rx] ],
+           Last, Exchanges).
+
+%   moved(Goal, Exchanges): with a report of the state of motor A.
+
+moved(set_motorspeed_nxt(moved, 'A', 30), [Asked|Set]) :-
+    member(Power-Run-Powers,
+           [ 50-32-[30], -50-32-[-30], 1-16-[30], 0-32-[], 50-0-[] ]),
+    asked(Power, 7, Run, Asked),
+    maplist(set_to, Powers, Set).
+moved(reverse_nxt(moved, 'A'), [Asked,Set]) :-
+    asked(-20, 7, 32, Asked),
+    set_to(20, Set).
+moved(assertion(getmode_nxt(moved, 'A', Mode)), [Asked]) :-
+    member(Power-Bits-Run-Mode, [ 50-7-32-1, -50-7-32-2, 0-7-32-3, 0-6-32-4,
+                                  50-7-0-4, 1-7-16-1, -1-1-64-2 ]),
+    asked(Power, Bits, Run, Asked).
+moved(assertion(ismoving_nxt(moved, 'A', 1)), [Asked]) :-
+    asked(1, 7, 32, Asked).
+moved(assertion(ismoving_nxt(moved, 'A', 0)), [Asked,Asked]) :-
+    member(Power-Run, [0-32, 50-0]),
+    asked(Power, 7, Run, Asked).
+moved(nxt_turn_to(moved, a, -80, To), [Asked,Set]) :-
+    member(To-Power, [103-80, 97- -80]),
+    asked(0, 7, 32, Asked),
+    Set = [0,4,0,Power,7,1,0,32,d(3)]-[2,4,0].
+moved(set_acceleration_nxt(moved, 'A', 200), [Asked]) :-
+    asked(0, 7, 0, Asked).
+moved(move_forward_nxt(moved, 'A', 20), [Asked|Set]) :-
+    asked(-5, 7, 32, Asked),
+    maplist(set_to, [5, 15, 20], Set).
+moved(move_backward_nxt(moved, 'A', 20), [Asked|Set]) :-
+    asked(0, 7, 32, Asked),
+    maplist(set_to, [-10, -20], Set).
+
+asked(Power, Mode, Run,
+      [0,6,0]-[2,6,0,0,Power,Mode,1,0,Run,d(0),d(100),d(0),d(100)]).
+
+set_to(Power, [0,4,0,Power,7,1,0,32,d(0)]-[2,4,0]).
+
 :- end_tests(nxt_bytes).
+
+                /*******************************
+                *            BOUNDS            *
+                *******************************/
+
+:- begin_tests(nxt_bounds).
+
+%   A brick is looked for when the arguments have been checked.
+
+test(arguments, [forall(bounded(Goal, Value, Low, High))]) :-
+    Below is Low-1,
+    Above is High+1,
+    forall(member(Value, [Low,High]),
+           ( error_of(Goal, Formal),
+             assertion(Formal == existence_error(nxt_brick, b)) )),
+    forall(member(Value, [Below,Above]),
+           ( error_of(Goal, Formal),
+             assertion(memberchk(Formal, [ type_error(_, _),
+                                           domain_error(_, _) ])) )).
+
+error_of(Goal, Formal) :-
+    catch(( Goal, Formal = none ), error(Formal, _), true).
+
+%   bounded(Goal, Value, Low, High)
+
+bounded(nxt_run(b, a, X), X, -100, 100).
+bounded(nxt_run(b, a, 1, [sync(X)]), X, -100, 100).
+bounded(nxt_turn(b, a, X, 9), X, -100, 100).
+bounded(nxt_turn_to(b, a, X, 9), X, -100, 100).
+bounded(nxt_turn_to(b, a, X, 9, 1), X, 1, 100).
+bounded(nxt_turn_to(b, a, 1, 9, X), X, 0, 36000).
+bounded(nxt_await(b, a, X), X, 0, 36000).
+bounded(nxt_touch(b, X, _), X, 1, 4).
+bounded(nxt_input(b, X, _), X, 1, 4).
+bounded(nxt_compass(b, X, _), X, 1, 4).
+bounded(init_touch_nxt(b, 1, X), X, 1, 4).
+bounded(nxt_sensor(b, 1, X, 0, _), X, 0, 18).
+bounded(nxt_sensor(b, 1, 0, X, _), X, 0, 255).
+bounded(nxt_i2c(b, 1, [2,8], X, _), X, 0, 15).
+bounded(nxt_tone(b, X, 1), X, 200, 14000).
+bounded(nxt_tone(b, 200, X), X, 0, 65535).
+bounded(nxt_write(b, X, 0, a), X, 0, 15).
+bounded(nxt_write(b, 0, X, a), X, 0, 7).
+bounded(nxt_message_write(b, X, a), X, 0, 19).
+bounded(nxt_message_read(b, X, true, _), X, 0, 19).
+bounded(beep_nxt(b, X), X, 1, 4).
+bounded(( long(X, Name), Goal ), X, 1, Most) :-
+    member(Goal-Most, [ nxt_set_name(b, Name)-15, nxt_files(b, Name, _)-19,
+                        nxt_sound_file(b, Name, true)-19,
+                        nxt_file_read(b, Name, _)-19,
+                        nxt_file_write(b, Name, [])-19,
+                        nxt_file_delete(b, Name)-19,
+                        nxt_program_start(b, Name)-19 ]).
+bounded(( atom_codes(Name, [X]), nxt_set_name(b, Name) ), X, 1, 127).
+
+long(Length, Name) :-
+    findall(0'x, between(1, Length, _), Codes),
+    atom_codes(Name, Codes).
+
+:- end_tests(nxt_bounds).
 
                 /*******************************
                 *      THE LINES OF A HELPER   *

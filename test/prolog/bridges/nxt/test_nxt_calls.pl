@@ -50,13 +50,6 @@ test(motor_must_be_bound) :-
           assertion(Stopped == true),
           call_cleanup(nxt_turn(lizzy, a, 50, 9), Begun = true),
           assertion(Begun == true) )).
-test(power_is_checked,
-     [ forall(( member(Power, [-101, 101]),
-                member(Call, [ nxt_run(b, a, Power), nxt_turn(b, a, Power, 9),
-                               nxt_turn_to(b, a, Power, 9),
-                               nxt_turn_to(b, a, Power, 9, 1) ]) )),
-       error(type_error(between(_, _), Power)) ]) :-
-    call(Call).
 test(real_brick, [condition(getenv('TYPHON_NXT', _))]) :-
     getenv('TYPHON_NXT', Port),
     connected(real, Port, [],
