@@ -6,12 +6,18 @@
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/texts', [write_file/3]).
 :- use_module('../../../lib/fixtures').
+:- use_module(library(apply), [maplist/2]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
 :- use_module(library(thread), [concurrent/3]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/bridges/helper)).
+:- use_module(library(typhon/bridges/helper/process), [process_kill_of/1]).
+:- use_module(library(typhon/bridges/helper/owner), [own/4, own_state/2]).
+:- use_module(library(typhon/kernel/base/monotonic), [monotonic_time/1]).
+:- use_module(library(typhon/kernel/base/server),
+              [server_call/4, server_cast/2, server_start/4, server_stop/1]).
 
 %   with_complaining(:Goal): there is a helper that reports what it lacks, and
 %   ends, whenever it is started.
@@ -98,6 +104,77 @@ answer(Do, Seconds, Short) :-
     ->  Short = said(Dict.error)
     ;   Short = Answer
     ).
+
+test(delays_double_up_to_ten_seconds,
+     Delays == [0.2, 0.4, 0.8, 1.6, 3.2, 6.4, 10, 10]) :-
+    no_leaks(with_owner(command('/no/program', []), Owner, Reports,
+                        findall(Delay,
+                                ( between(1, 8, _),
+                                  server_cast(Owner, timeout),
+                                  next_state(Reports, down(Delay)) ),
+                                Delays))).
+test(first_restart_is_immediate, States == [up(0), up(0.1), down(0.2)]) :-
+    no_leaks(capturing(with_owner(command(path(sh), ['-c', 'exit 3']),
+                                  _, Reports,
+                                  ( length(States, 3),
+                                    maplist(next_state(Reports), States) )),
+                       _)).
+test(restart_after_five_seconds_is_immediate,
+     [ forall(member(Age-Next, [4-down(0.2), 6-up(0.1)])), State == Next ]) :-
+    no_leaks(capturing(with_owner(command(path(cat), []), Owner, Reports,
+                                  restarted(Owner, Reports, Age, State)),
+                       _)).
+
+%   The second process has been running for Age seconds when it ends.
+
+restarted(Owner, Reports, Age, State) :-
+    next_state(Reports, up(0)),
+    process_kill_of(Owner),
+    next_state(Reports, up(0.1)),
+    server_cast(Owner, age(Age)),
+    next_state(Reports, up(0.1)),
+    process_kill_of(Owner),
+    next_state(Reports, State).
+
+:- meta_predicate with_owner(+, -, -, 0).
+
+%   with_owner(+Command, -Owner, -Reports, :Goal): the owner of a helper that is
+%   always restarted; the queue Reports gets its states.
+
+with_owner(Command, Owner, Reports, Goal) :-
+    setup_call_cleanup(
+        ( message_queue_create(Lines),
+          message_queue_create(Reports) ),
+        owned(owner(test, Command, always, test, Lines), Owner, Reports, Goal),
+        ( message_queue_destroy(Lines),
+          message_queue_destroy(Reports) )).
+
+owned(Me, Owner, Reports, Goal) :-
+    own_state(always, until(_, State)),
+    setup_call_cleanup(
+        server_start(test, reporting(Reports, Me), State, Owner),
+        ( next_state(Reports, down(first)),
+          once(Goal) ),
+        ( server_call(Owner, quit, 20, done),
+          server_stop(Owner) )).
+
+reporting(Reports, Me, Message, State0, Next) :-
+    (   Message = age(Seconds)
+    ->  State0 = up(Process, _, Wait),
+        monotonic_time(Now),
+        Since is Now-Seconds,
+        Next = up(Process, Since, Wait)
+    ;   own(Me, Message, State0, Next)
+    ),
+    thread_send_message(Reports, Next).
+
+next_state(Reports, Short) :-
+    thread_get_message(Reports, Next, [timeout(20)]),
+    short(Next, Short).
+
+short(until(_, State), Short) :- short(State, Short).
+short(up(_, _, Wait), up(Wait)).
+short(down(_, Wait, _), down(Wait)).
 
 is_down :-
     wait_until(\+ helper_pid(complaining, _), 20).
