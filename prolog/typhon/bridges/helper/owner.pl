@@ -51,9 +51,9 @@ soon(5).                        % seconds: a process that ends earlier failed
 %   State is up(Process, Since, Wait), or down(Time, Wait, Answer): the process
 %   is started at Time, or with the next request (`asked`), or `never`; until
 %   then requests get Answer.  Wait is the next delay before a restart, if the
-%   process ends soon.
+%   process ends soon, or `none` for a process that a request starts.
 
-own_state(asked, down(asked, 0, closed)).
+own_state(asked, down(asked, none, closed)).
 own_state(always, until(0, down(0, first, closed))).
 
 own(Me, Message, State0, Next) :-
@@ -94,7 +94,7 @@ handle(ended(_), _, State0, State) =>   % the process was killed
 handle(call(quit, Caller), _, State0, State) =>
     answer_all(closed),
     stop(State0),
-    State = down(never, 0, closed),
+    State = down(never, none, closed),
     server_answer(Caller, done).
 handle(stop, _, State0, State) =>
     State = State0.
@@ -115,7 +115,7 @@ begin(owner(Name, Command, When, Role, _), Wait, State) :-
           ( First is max(0.1, Wait),
             down(When, First, error(Formal, Context), State) )).
 
-down(asked, _, Answer, down(asked, 0, Answer)).
+down(asked, _, Answer, down(asked, none, Answer)).
 down(always, Wait0, Answer, down(Time, Wait, Answer)) :-
     deadline(Wait0, Time),
     Wait is min(10, 2*Wait0).
@@ -136,7 +136,7 @@ ended(Status, Me, Since, Wait, State) :-
     answer_died(died(Status), Answer),
     debug(typhon(helper), '~p ended: ~p', [Name, Status]),
     (   unfit(Answer)
-    ->  State = down(asked, 0, Answer)
+    ->  State = down(asked, none, Answer)
     ;   report_ended(When, Name, Status),
         again_when(When, Since, Wait, Wait1),
         again(Wait1, Me, Answer, State)
@@ -157,7 +157,7 @@ again(Wait, owner(_, _, When, _, _), Answer, State) :-
 %   again_when(+When, +Since, +Wait, -Wait1): the first restart is immediate,
 %   and so is that of a process which has run for some time.
 
-again_when(asked, _, _, 0) :-
+again_when(asked, _, _, none) :-
     !.
 again_when(always, _, 0, now) :-
     !.

@@ -120,7 +120,7 @@ test(first_restart_is_immediate, States == [up(0), up(0.1), down(0.2)]) :-
                                     maplist(next_state(Reports), States) )),
                        _)).
 test(restart_after_five_seconds_is_immediate,
-     [ forall(member(Age-Next, [4-down(0.2), 6-up(0.1)])), State == Next ]) :-
+     [ forall(member(Age-Next, [2-down(0.2), 5.5-up(0.1)])), State == Next ]) :-
     no_leaks(capturing(with_owner(command(path(cat), []), Owner, Reports,
                                   restarted(Owner, Reports, Age, State)),
                        _)).
