@@ -207,7 +207,7 @@ test(dropped_messages_are_counted) :-
 test(the_list_of_topics) :-
     on_a_host(Agent, [],
         ( does(alpha, Agent, ros_publish('/b', 'std_msgs/String', [data=x])),
-          does(alpha, Agent, ros_subscribe('/a', 'std_msgs/msg/Bool')),
+          does(alpha, Agent, ros_subscribe("/a", "std_msgs/msg/Bool")),
           does(alpha, Agent, ros_topics(Pairs)),
           assertion(Pairs == [ '/a'-'std_msgs/msg/Bool',
                                '/b'-'std_msgs/String' ]) )).
@@ -358,15 +358,49 @@ test(leaving_agent_refuses_its_open_calls) :-
 test(parameters_are_services_of_nodes) :-
     on_a_host(Agent, [],
         ( goal_agent(alpha, Node),
-          does(alpha, Node, ros_offer('/n/get_parameters', 'std_srvs/Empty',
-                                      [])),
-          agent_send(Agent, do(ros_parameter('/n', speed, _))),
-          gets(alpha, Node, request(Id, _, Request)),
-          assertion(Request.names == ["speed"]),
-          does(alpha, Node,
-               ros_answer(Id, [values=[[type=3,double_value=0.5]]])),
-          wait_until(remote(alpha, take(did(Agent, Result))), 5),
-          assertion(Result = yes(ros_parameter(_, _, 0.5))) )).
+          forall(member(Service, [get_parameters, set_parameters]),
+                 ( atom_concat('/n/', Service, Path),
+                   does(alpha, Node, ros_offer(Path, 'std_srvs/Empty', [])) )),
+          forall(parameter(Type, Key, Value),
+                 ( parameter_is_read(Agent, Node, Type, Key, Value),
+                   parameter_is_set(Agent, Node, Type, Key, Value) )) )).
+
+%   parameter(Type, Key, Value): as rcl_interfaces/msg/ParameterType has them.
+
+parameter(1, bool_value, false).
+parameter(2, integer_value, 7).
+parameter(3, double_value, 0.5).
+parameter(4, string_value, "x").
+parameter(5, byte_array_value, "AQI=").
+parameter(6, bool_array_value, [true,false]).
+parameter(7, integer_array_value, [1,2]).
+parameter(8, double_array_value, [0.5,1.5]).
+parameter(9, string_array_value, ["x","y"]).
+
+parameter_is_read(Agent, Node, Type, Key, Value) :-
+    agent_send(Agent, do(ros_parameter('/n', speed, _))),
+    gets(alpha, Node, request(Id, '/n/get_parameters', Request)),
+    assertion(Request.names == ["speed"]),
+    does(alpha, Node, ros_answer(Id, [values=[[type=Type,Key=Value]]])),
+    wait_until(remote(alpha, take(did(Agent, Result))), 5),
+    assertion(Result = yes(ros_parameter(_, _, Value))).
+
+parameter_is_set(_, _, 5, _, _) :-
+    !.                                  % it would be set as text
+parameter_is_set(Agent, Node, Type, Key, Value) :-
+    agent_send(Agent, do(ros_set_parameter('/n', speed, Value))),
+    gets(alpha, Node, request(Id, '/n/set_parameters', Request)),
+    Request.parameters = [Parameter],
+    assertion(Parameter.name == "speed"),
+    dict_pairs(Parameter.value, _, Pairs),
+    assertion(Pairs == [Key-Value,type-Type]),
+    does(alpha, Node, ros_answer(Id, [results=[[successful=true]]])),
+    wait_until(remote(alpha, take(did(Agent, yes(_)))), 5).
+
+test(parameter_that_is_no_value, Formal == type_error(ros_parameter, f(x))) :-
+    on_a_host(Agent, [],
+              goal_error(alpha, Agent, ros_set_parameter('/n', speed, f(x)),
+                         Formal)).
 
 :- end_tests(rosbridge_services).
 
