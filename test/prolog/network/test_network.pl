@@ -459,6 +459,15 @@ test(bad_arguments,
                        existence_error(network, atlantis) ])),
        error(Formal) ]) :-
     call(Goal).
+test(network_is_named,
+     [ forall(( member(Network-Formal,
+                       [ _-instantiation_error, 7-type_error(atom, 7),
+                         atlantis-existence_error(network, atlantis) ]),
+                member(Goal, [ network_advance(Network, 1),
+                               network_at(Network, 1, true),
+                               network_save(Network, '/no/such/file') ]) )),
+       error(Formal) ]) :-
+    call(Goal).
 test(bad_options,
      [ forall(member(Option-Formal,
                      [ colour(red)-domain_error(network_option, colour(red)),
