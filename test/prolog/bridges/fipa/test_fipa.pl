@@ -102,6 +102,23 @@ test(agents_keep_conversations_apart) :-
                To-Second),
           assertion(To-Second == r1-[2]) )).
 
+%   Agents and managers.
+
+test(answer_goes_to_the_agent_that_is_named,
+     [forall(member(To, [echo, ams]))]) :-
+    with_platform([], _,
+        ( echo(alpha, _),
+          agent_create(clauses([ (:- agent(other, [])),
+                                 (main :- receive(_-acl(Performative, _)),
+                                          result(Performative)) ]),
+                       Other, [host(alpha)]),
+          atom_concat(To, '@a', Name),
+          does(send(fipa(Name),
+                    acl(request, [ content([action(fipa(Name),
+                                                   'get-description'())]),
+                                   reply_to([fipa('other@a')]) ])), sent),
+          agent_result(Other, inform, 20) )).
+
 test(forged_sender_is_replaced) :-
     with_platforms(_, Url,
         ( echo(beta, _),
