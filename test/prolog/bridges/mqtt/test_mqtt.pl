@@ -22,6 +22,8 @@ programs.
 :- use_module(library(socket),
               [ tcp_bind/2, tcp_close_socket/1, tcp_listen/2, tcp_socket/1 ]).
 :- use_module(library(typhon)).
+:- use_module(library(typhon/bridges/helper), [helper_pid/2]).
+:- use_module(library(typhon/bridges/mqtt/incoming), [mqtt_topic/2]).
 
 :- dynamic shared/1.                    % the broker of most tests
 
@@ -80,6 +82,10 @@ sends(Topic, Text) :-
     shared(Broker),
     client_publishes(Broker, Topic, ['-m', Text]).
 
+mqtt_helper(Signal) :-
+    helper_pid(mqtt(alpha), Pid),
+    process_kill(Pid, Signal).
+
 error_of(Goal, Formal) :-
     catch(( remote(alpha, Goal), Formal0 = none ), error(Formal0, _), true),
     Formal = Formal0.
@@ -109,6 +115,15 @@ test(granted_quality, QoS == [1]) :-
                     remote(alpha, publish(q, x, [qos(2)])),
                     got(A, Ms) )),
     findall(Q, member(message(q, _, [qos(Q)|_]), Ms), QoS).
+%   The helper is stopped, so it answers nothing.
+
+test(message_that_may_be_lost_is_not_waited_for, Lines == ["x"]) :-
+    shared(Broker),
+    at_broker([timeout(1)],
+              client_receives(Broker, ['-t', lossy, '-C', 1, '-F', '%p'],
+                              ( mqtt_helper(stop),
+                                remote(alpha, publish(lossy, x)),
+                                mqtt_helper(cont) ), Lines)).
 test(retained) :-
     at_broker([], ( remote(alpha, publish(r, first, [retain(true),qos(1),
                                                      wait(true)])),
@@ -428,6 +443,44 @@ test(text_of_all_kinds) :-
                          ( error_of(Goal, Formal),
                            assertion(Formal \== none),
                            assertion(Goal-Formal = Goal-Expected) ))).
+%   What section 1.5.4 of the standard of MQTT 5 excludes.
+
+test(characters_of_topics, Refused == [0-31, 127-159, 0xFDD0-0xFDEF,
+                                       0xFFFE-0xFFFF, 0x1FFFE-0x1FFFF]) :-
+    findall(Code,
+            ( ( between(0, 0xD7FF, Code) ; between(0xE000, 0x20000, Code) ),
+              \+ memberchk(Code, `+#`),
+              atom_codes(Topic, [Code]),
+              \+ is_topic(Topic) ),
+            Codes),
+    ranges(Codes, Refused).
+test(length_and_depth_of_topics,
+     [forall(member(Char-Most, [a-65535, '\u20ac'-21845, (/)-199]))]) :-
+    More is Most+1,
+    maplist(repeated(Char), [Most,More], [Longest,Longer]),
+    assertion(is_topic(Longest)),
+    assertion(\+ is_topic(Longer)).
+
+is_topic(Text) :-
+    catch(mqtt_topic(Text, Topic), error(domain_error(mqtt_topic, Text), _),
+          fail),
+    assertion(Topic == Text).
+
+repeated(Char, Count, Atom) :-
+    findall(Char, between(1, Count, _), Chars),
+    atomic_list_concat(Chars, Atom).
+
+ranges([], []).
+ranges([Code|Codes], [Code-Last|Ranges]) :-
+    range(Codes, Code, Last, Rest),
+    ranges(Rest, Ranges).
+
+range([Next|Codes], Code, Last, Rest) :-
+    Next =:= Code+1,
+    !,
+    range(Codes, Next, Last, Rest).
+range(Rest, Last, Last, Rest).
+
 test(too_large_to_send, E == resource_error(mqtt_payload)) :-
     at_broker([largest(100)], ( numlist(1, 100, Ns),
                                 error_of(publish(a, Ns), E) )).
@@ -633,8 +686,7 @@ document(Differences, Dir) :-
                   transcript_differences([1-Lines], Dir, Differences) )).
 
 killed :-
-    typhon_helper_requests:helper_pid(mqtt(alpha), Pid),
-    process_kill(Pid, kill).
+    mqtt_helper(kill).
 
 %   The connection is up or down, as was last reported.
 
