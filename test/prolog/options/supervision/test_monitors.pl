@@ -90,6 +90,9 @@ story(away_when_its_home_dies, [a-p1, b-p1],
         only([a-lost(p1)]), gone_from(p2, a), is_on(p2, b) ]).
 story(lost_in_a_dead_process, [],
       [monitor(a), a/p1, kill(p1), only([a-lost(p1)])]).
+story(monitored_after_the_end_of_its_process, [],
+      [ monitor(b), a/p1, b/p1, kill(p1), gets(b, lost(p1)), monitor(a),
+        only([b-lost(p1), a-lost(p1)]) ]).
 story(lost_in_a_third_process, [w-p3, a-p1],
       [monitor(a), a/p2, kill(p2), only([a-lost(p2)])]).
 story(hopped_on, [b-p1],
