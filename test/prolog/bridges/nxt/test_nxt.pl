@@ -283,6 +283,12 @@ sent(move_forward_nxt(lizzy, 'A', 'B', 150),
 sent(flt_nxt(lizzy, 'B'), [[0,4,1,z(5),d(0)]]).
 sent(floodlight_nxt(lizzy, 3, off), [[0,5,2,6,128]]).
 sent(init_touch_nxt(lizzy, 1, 2), [[0,5,0,1,32], [0,5,1,1,32]]).
+sent(beep_nxt(lizzy, Type), Requests) :-
+    member(Type-Tones, [ 1-[600-200], 2-[600-150,600-150],
+                         3-[523-100,659-100,784-100,1047-150], 4-[220-500] ]),
+    findall([0,3,w(Hertz),w(MilliSeconds)],
+            member(Hertz-MilliSeconds, Tones),
+            Requests).
 sent(exec_nxt(lizzy, demo), [[0,0,n('demo.rxe',20)]]).
 
 %   read_by(Goal, Value, Sensor, Expected): Value of Goal is Expected with the

@@ -162,7 +162,7 @@ old_motors :-
     getmode_nxt(lizzy, 'B', 4).
 
 old_sounds(Brick) :-
-    beep_nxt(lizzy, 1),
+    nxt_tone(lizzy, 600, 100),
     get_time(Before),
     wait_nxt(lizzy, 100),
     get_time(After),
