@@ -326,8 +326,11 @@ answers(Peer) :-
                ( agent_create(Asker, A), agent_result(A, yes, 25) )).
 
 supervisor_on(Peer, Id) :-
+    agent_on(Peer, 'supervisor.', Id).
+
+agent_on(Peer, Begin, Id) :-
     peer_do(Peer, ( typhon_agents:agent(Id, _, _, _, _),
-                    sub_atom(Id, 0, _, _, 'supervisor.') )).
+                    sub_atom(Id, 0, _, _, Begin) )).
 
 test(a_process_dies) :-
     three(( linked(H1, H2, H3),
@@ -340,6 +343,19 @@ test(a_process_dies) :-
 test(process_of_the_supervisor_dies) :-
     three(( on_standby(_),
             peer_kill(p1),
+            wait_until(each_once([p2,p3]), 30),
+            answers(p2),
+            each_once([p2,p3]) )).
+test(child_started_later_ends_when_the_standby_takes_over) :-
+    three(( on_standby(_),
+            agent_on(p3, 'c.', Old),
+            agent_dispose(Old),
+            wait_until(( agent_on(p3, 'c.', New), New \== Old ), 20),
+            supervisor_on(p2, Standby),
+            wait_until(( agent_property(Standby, facts(Facts)),
+                         memberchk(running(c, New), Facts) ), 20),
+            peer_kill(p1),
+            joined(New, disposed),
             wait_until(each_once([p2,p3]), 30),
             answers(p2),
             each_once([p2,p3]) )).
