@@ -325,6 +325,18 @@ test(last_change_is_the_newest, true(V0 < V1)) :-
     sequence_change(undecided, [B], [1-true]),  % as it was there
     plan_at(A, undecided, V0),
     plan_at(B, undecided, V1).
+test(tasks_of_an_older_plan_are_a_newer_one,
+     [ forall(member(Body-Order, [true-(=),false-(<)])), Found == Order ]) :-
+    hosts([A, B|_]),
+    atom_concat(older_, Body, Name),
+    sequence_start(Name, [A, B], [1-true], [agents(0)], []),
+    sequence_change(Name, [A], [1-false]),
+    sequence_change(Name, [B], [1-true]),
+    plan_at(B, Name, Newest),
+    sequence_start(Name, [A, B], [1-Body], [agents(0)], []),
+    plan_at(A, Name, Version),
+    plan_at(B, Name, Version),
+    compare(Found, Newest, Version).
 test(same_tasks_are_the_same_plan, V1 == V0) :-
     hosts([A|_]),
     Goal = sleep(_),
