@@ -53,7 +53,8 @@ with_python(Args, far(In, Out), Goal) :-
                                 [ stdin(pipe(In)), stdout(pipe(Out)),
                                   process(Pid)
                                 ]),
-                 once(Goal),
+                 ( set_stream(Out, timeout(60)),
+                   once(Goal) ),
                  end_python(In, Out, Pid))).
 
 %   Both end with their standard input.
