@@ -5,6 +5,9 @@
 :- use_module('../../../prolog/typhon/kernel/base/error_text').
 :- use_module('../../../prolog/typhon/kernel/base/error_lines').
 :- use_module('../../../prolog/typhon/kernel/agent', [is_printable/1]).
+:- use_module('../../../prolog/typhon/kernel/wire/peer_cache',
+              [peer_missed/2]).
+:- use_module('../../../prolog/typhon/options/tls', []).
 :- use_module(library(plunit)).
 :- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(typhon)).
@@ -164,7 +167,41 @@ shown(move_refused(h, Why), Text) :-
              other(1)-"other(1)" ]),
     string_concat("h refuses to admit the agent: ", Words, Text).
 
+%   unreached(Formal, Text): why there is no connection to a process.
+
+unreached(late, "it does not answer").
+unreached(timeout_error(read, s), "it does not answer").
+unreached(socket_error(x, "Connection Refused"), "connection refused").
+unreached(permission_error(use, cookie_file, f),
+          "the cookie file f may not be used").
+unreached(permission_error(authenticate, peer, Why), Text) :-
+    member(Why-Text,
+           [ cookie-"it has another cookie",
+             protocol-"something else answers there",
+             version(7)-"it speaks another version of the protocol, 7",
+             tls(missing)-"it connects without TLS",
+             tls(wanted)-"it requires TLS, and we have no keys",
+             tls(unknown)-"it uses TLS, and we have no keys",
+             tls(plain)-"it does not use TLS",
+             tls('peer did not return a certificate')-
+             "it sent no certificate",
+             tls('unsupported protocol')-"it does not use TLS 1.3",
+             tls('version too low')-"it does not use TLS 1.3",
+             tls(expired)-"its certificate has expired",
+             tls(revoked)-"its certificate is revoked",
+             tls(wrong_use)-"its certificate is not a host certificate",
+             tls(self_made)-"its certificate is self-signed",
+             tls(foreign)-"its certificate was issued by another authority",
+             tls(his(expired))-"it reports that our certificate has expired",
+             tls(strange)-"TLS failed: strange" ]).
+
 :- begin_tests(error_text).
+
+test(reasons_why_a_process_is_not_reached,
+     [forall(unreached(Formal, Why)), Text == Expected]) :-
+    peer_missed('h.test:1', Formal),
+    error_text(error(host_unreachable('a@h.test:1'), _), Text),
+    string_concat("Host 'a@h.test:1' cannot be reached: ", Why, Expected).
 
 test(texts, [forall(shown(Formal, Expected)), Text == Expected]) :-
     error_text(error(Formal, _), Text).
