@@ -64,7 +64,8 @@ claims(Study, Claims) :-
 
 %!  invalid_claims(+Study, -Problems:list) is det.
 %
-%   Parts of claims that are not tests, or the absence of claims.
+%   Parts of claims that are not tests, texts that are none, or the absence of
+%   claims.
 
 invalid_claims(Study, Problems) :-
     claims(Study, Claims),
@@ -74,8 +75,21 @@ odd([], _, [no_claims]) :-
     !.
 odd(Claims, Study, Problems) :-
     findall(Text-Problem,
-            ( member(Text-Test, Claims), claim_shape(Study:Test, Problem) ),
+            ( member(Text-Test, Claims),
+              (   claim_shape(Study:Test, Problem)
+              ;   \+ is_text(Text),
+                  Problem = text
+              ) ),
             Problems).
+
+%   An unbound variable in a text is written as `_` and digits.
+
+is_text(Text) :-
+    string(Text),
+    \+ ( sub_string(Text, Before, 1, _, "_"),
+         Next is Before+1,
+         sub_string(Text, Next, 1, _, Char),
+         char_type(Char, digit) ).
 
 %!  verdicts(+Study, +Points, -Verdicts:list(pair)) is det.
 %
