@@ -28,6 +28,9 @@ equivalent('prolog/typhon/options/cell/cells.pl', give/2, goal,
            "key_without_cell(_)", "true",
            "the server of the cells wakes, and finds nothing to do").
 
+equivalent('prolog/typhon/network/log.pl', write_event/4, cut, "!", "true",
+           "the server takes the first state that its handler gives").
+
 equivalent('experiments/sync/metrics.pl', gaps/1, order,
            "gaps([]). gaps([task(_, _, _, _, _, none)]) :- !",
            "gaps([task(_, _, _, _, _, none)]) :- !. gaps([])",
@@ -58,6 +61,9 @@ equivalent_change(Change, "declarations of a study, which are found by name") :-
     Change = change(File, _, _, _, order, Predicate, _),
     of_study(File),
     memberchk(Predicate, [fixed/3, label/2]).
+equivalent_change(Change, "claims of a study, which are listed as they stand") :-
+    Change = change(File, _, _, _, order, claim/3, _),
+    of_study(File).
 equivalent_change(Change, "the line of the thesis that a claim names") :-
     Change = change(File, Start, _, _, bound, claim/3, _),
     of_study(File),

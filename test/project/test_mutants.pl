@@ -189,6 +189,9 @@ test(sides_of_comparisons_without_direction_are_equivalent,
 test(order_of_measures_of_a_study_is_equivalent, Verdicts == [equivalent]) :-
     verdicts('experiments/applications/study_warehouse.pl', order, measure/3,
              _, Verdicts).
+test(order_of_claims_of_a_study_is_equivalent, Verdicts == [equivalent]) :-
+    verdicts('experiments/hierarchy/beyond_lead.pl', order, claim/3, _,
+             Verdicts).
 test(line_of_the_thesis_in_a_claim_is_equivalent,
      Printed-Bounds == [equivalent]-[tried]) :-
     File = 'experiments/learning/study_light.pl',
