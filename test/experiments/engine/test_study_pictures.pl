@@ -144,6 +144,7 @@ part(variables, 'one.gnuplot',
        "Series[2] = [\"new one\", \"Old ones\"]",
        "of\\\\_toys; 3 runs of each: medians, least and greatest\"",
        "load \"lines.gp\"" ]).
+part(without_printed_values, 'two.gnuplot', ["PRINTED = 0"]).
 part(names_of_values_are_texts, 'two.gnuplot',
      ["XTICS = \"'new one' 1,'Old ones' 2\""]).
 part(caption_names_the_aggregation, 'two.gnuplot',
