@@ -92,16 +92,16 @@ competing(thesis, murdoch, _, K, C, T, 1, 50) :-
 competing(thesis, anta, dynamic, K, C, T, 1, 50) :-
     C is 15000*K, T is 40*K.
 competing(thesis, anta, static, K, C, T, 1, 50) :-
-    C is 3000*K, T is 40*K.
+    C is 7490*K, T is 40*K.
 competing(reverse, proposed, dynamic, K, C, 100, 0, I) :-
     C is 20000 - 100*K, I is 200 - K.
-competing(reverse, proposed, static, K, C, 300, 0, I) :-
-    C is 60000 - 300*K, I is 200 - K.
+competing(reverse, proposed, static, K, C, 201, 0, I) :-
+    C is 40200 - 201*K, I is 200 - K.
 competing(reverse, constant, _, _, 1000000, 100, 1, 50).
 competing(reverse, murdoch, dynamic, K, C, 10, 1, 50) :-
     C is 10000 - 1000*K.
 competing(reverse, murdoch, static, K, C, 10, 1, 50) :-
-    C is 40000 - 4000*K.
+    C is 20100 - 2010*K.
 competing(reverse, anta, _, K, C, 10, 1, 50) :-
     C is 10000 - 1000*K.
 
