@@ -25,7 +25,7 @@ there, too.
 :- use_module('../lib/common', [project_file/2]).
 :- use_module('../lib/run_log', [suite_time/2]).
 :- use_module('../lib/suites', [all_suites/1, suite_name/2]).
-:- use_module('../lib/touched', [touched_suites/2]).
+:- use_module('../lib/touched', [suite_times/1, touched_suites/2]).
 :- use_module(library(apply), [foldl/4]).
 :- use_module(library(filesex),
               [directory_file_path/3, directory_member/3, make_directory_path/1]).
@@ -218,25 +218,41 @@ load_coverage(File) :-
 %   The suites that execute Predicate of File, as suite(Suite, Processor,
 %   Seconds). First the suite of the same place in test/, then the quickest.
 %   Of predicates that no suite is known to execute, such as those of facts
-%   only, and of programs of agents: those that a change of File touches.
+%   only, and of programs of agents: those that a change of File touches. Also
+%   those of its folder and the folders above that are newer than the record.
 
 suites_of(File, Predicate, Suites) :-
+    findall(Suite, executing(File, Predicate, Suite), Executing),
+    (   Executing == []
+    ->  touched_suites([File], Touched)
+    ;   Touched = []
+    ),
     findall(Order-suite(Suite, Processor, Seconds),
-            ( suite(Suite, Processor, Seconds),
-              executes(Suite, File, Ps),
-              memberchk(Predicate, Ps),
-              order(File, Suite, Processor, Order)
-            ),
+            ( (   member(suite(Suite, Processor, Seconds), Executing)
+              ;   member(time(Suite, Processor, Seconds), Touched)
+              ;   newer(File, time(Suite, Processor, Seconds)),
+                  \+ memberchk(time(Suite, _, _), Touched)
+              ),
+              order(File, Suite, Processor, Order) ),
             Pairs0),
-    Pairs0 \== [],
-    !,
     keysort(Pairs0, Pairs),
     pairs_values(Pairs, Suites).
-suites_of(File, _, Suites) :-
-    touched_suites([File], Times),
-    findall(suite(Suite, Processor, Seconds),
-            member(time(Suite, Processor, Seconds), Times),
-            Suites).
+
+executing(File, Predicate, suite(Suite, Processor, Seconds)) :-
+    suite(Suite, Processor, Seconds),
+    executes(Suite, File, Ps),
+    memberchk(Predicate, Ps).
+
+newer(File, Time) :-
+    suite_times(Times),
+    member(Time, Times),
+    Time = time(Suite, _, _),
+    \+ suite(Suite, _, _),
+    file_directory_name(Suite, Folder),
+    folder(File, Place),
+    atom_concat(Folder, /, Above),
+    atom_concat(Place, /, Path),
+    sub_atom(Path, 0, _, _, Above).
 
 order(File, Suite, Processor, Place-Processor) :-
     (   mirrored(File, Suite)
@@ -254,9 +270,13 @@ mirrored(File, Suite) :-
     file_base_name(Suite, SuiteBase).
 
 same_place(File, Suite) :-
-    file_directory_name(File, Dir0),
-    (   atom_concat('prolog/typhon/', Rest, Dir0)
-    ->  atom_concat('test/prolog/', Rest, Dir)
-    ;   atom_concat('test/', Dir0, Dir)
-    ),
-    file_directory_name(Suite, Dir).
+    folder(File, Folder),
+    file_directory_name(Suite, Folder).
+
+folder(File, Folder) :-
+    file_directory_name(File, Dir),
+    member(From-To, [ 'prolog/typhon/'-'test/prolog/',
+                      'payloads/'-'test/agents/', ''-'test/' ]),
+    atom_concat(From, Rest, Dir),
+    !,
+    atom_concat(To, Rest, Folder).
