@@ -5,10 +5,9 @@
 :- use_module('../../prolog/typhon/kernel/agent/agents', [life_hops/2]).
 :- use_module('../../prolog/typhon/kernel/base/names', [counted/3]).
 :- use_module('../../prolog/typhon/kernel/base/text', [format_shown/2]).
-:- use_module('../../prolog/typhon/options/journal/database', [journal_part/3]).
 :- use_module('../../prolog/typhon/options/journal/store',
               [ journal_found/1, journal_item/5, journal_open/2,
-                journal_place/2, store_close/0 ]).
+                journal_part/3, journal_place/2, store_close/0 ]).
 :- use_module('../../prolog/typhon/tools/administration/restore', [restore_point/2]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(error), [existence_error/2]).

@@ -38,6 +38,8 @@ indexed(typhon_hosts:one_of/2, description, one_of(Description, _), Kind) :-
     callable(Description),
     functor(Description, Kind, _).
 indexed(typhon_time:starts/1, time, starts(Kind), Kind).
+indexed(typhon_store:backend_place/4, journal,
+        backend_place(Form, _, _, _), Form).
 indexed(typhon_durable:durable/5, durable, durable(Kind, _, _, _, _), Kind).
 indexed(typhon_durable:durable/6, durable, durable(Kind, _, _, _, _, _), Kind).
 

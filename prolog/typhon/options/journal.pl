@@ -36,7 +36,7 @@ hosts_back(Options) :-
 %   below that of Where, or another schema.
 
 journal_part(Where, P, Part) :-
-    journal_call(typhon_database:journal_part(Where, P, Part)).
+    journal_call(typhon_store:journal_part(Where, P, Part)).
 
 %!  journal_place(+Where, -Place:atom) is det.
 %
@@ -56,13 +56,13 @@ journal_place(Where, Place) :-
 %   The record is a text beside the journals.  Reading fails if there is none.
 
 journal_record(Where, Text) :-
-    journal_call(typhon_database:journal_record(Where, Text)).
+    journal_call(typhon_store:journal_record(Where, Text)).
 
 journal_record_put(Where, Text) :-
-    journal_call(typhon_database:journal_record_put(Where, Text)).
+    journal_call(typhon_store:journal_record_put(Where, Text)).
 
 journal_record_drop(Where) :-
-    journal_call(typhon_database:journal_record_drop(Where)).
+    journal_call(typhon_store:journal_record_drop(Where)).
 
 journal_call(Goal) :-
     on_demand_call(host_option, journal, Goal).

@@ -43,6 +43,7 @@ joins(host_option,'options/quotas',[quota]).
 joins(host_option,'options/tls',[tls]).
 joins(host_option,'options/trail',[trail]).
 joins(host_option,'options/virtual',[clock]).
+joins(journal,'options/journal',[postgresql,text]).
 joins(keys,'options/identity',[any]).
 joins(keys,'options/trail',[any]).
 joins(link_option,'tools/administration',[cost]).
@@ -101,7 +102,7 @@ files('options/external_recipients',['options/external_recipients']).
 files('options/guard',['options/guard']).
 files('options/host_log',['options/host_log']).
 files('options/identity',['options/identity/authors','options/identity/birth','options/identity/sender_rights']).
-files('options/journal',['options/journal/channel','options/journal/committing','options/journal/hop_ids','options/journal/journaled_agents','options/journal/journaled_tuples','options/journal/recovery','options/journal/store','options/journal/units_of_work']).
+files('options/journal',['options/journal/channel','options/journal/committing','options/journal/hop_ids','options/journal/journaled_agents','options/journal/journaled_tuples','options/journal/recovery','options/journal/sql_tables','options/journal/store','options/journal/units_of_work']).
 files('options/migration',['options/migration/pheromone','options/migration/strategy']).
 files('options/payloads',['options/payloads']).
 files('options/quotas',['options/quotas','options/quotas/quota_agents','options/quotas/quota_enforcer','options/quotas/quota_table','options/quotas/usage']).

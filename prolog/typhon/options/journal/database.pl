@@ -1,6 +1,6 @@
 :- module(typhon_database,
           [ database/3,                 % +Where, -Place, -Base
-            journal_part/3,             % +Where, +P, -Part
+            database_part/3,            % +Where, +P, -Part
             database_found/1,           % +Base
             database_connect/4,         % +Base, +Seconds, -Connection, -Age
             database_lock/3,            % +Base, +Sync, +Connection
@@ -9,9 +9,9 @@
             database_same/4,            % +Base, +Sync, +Stamp, +Connection
             database_forgets/4,         % +Base, +Sync, +Connection, -Seconds
             database_wrong/3,           % +Base, +Connection, -Why
-            journal_record/2,           % +Where, -Text
-            journal_record_put/2,       % +Where, +Text
-            journal_record_drop/1,      % +Where
+            database_record/2,          % +Base, -Text
+            database_record_put/2,      % +Base, +Text
+            database_record_drop/1,     % +Base
             in_terms_of/3               % +Place, +Base, :Goal
           ]).
 :- use_module(library(filesex),
@@ -41,14 +41,13 @@ at a URL, see typhon_postgresql; higher layers do not know which.
     database_same/4,
     database_forgets/4,
     database_wrong/3,
-    record/2,                   % Base, Text
-    record_put/2,               % Base, Text
-    record_drop/1,              % Base
-    error_words/3,              % Base, Words, What: a driver error with one of
+    database_record/2,
+    database_record_put/2,
+    database_record_drop/1,
+    error_words/3.              % Base, Words, What: a driver error with one of
                                 % Words means `locked`, `unwritable`, `full`,
                                 % `unwritten`, `unreachable` or
                                 % missing(Package)
-    prolog:error_message//1.
 
 %!  database(+Where, -Place:atom, -Base) is det.
 %
@@ -71,18 +70,18 @@ database(Url, Place, postgresql(Server)) :-
 database(Dir0, Dir, sqlite(Dir)) :-
     absolute_file_name(Dir0, Dir).
 
-%!  journal_part(+Where, +P, -Part) is det.
+%!  database_part(+Where, +P, -Part) is det.
 %
 %   See typhon_journal.
 
-journal_part(postgresql(Url), P, postgresql(Url, Part)) :-
+database_part(postgresql(Url), P, postgresql(Url, Part)) :-
     !,
     atom_concat('_process', P, Part).
-journal_part(Url, P, Part) :-
+database_part(Url, P, Part) :-
     postgresql_url(Url),
     !,
-    journal_part(postgresql(Url), P, Part).
-journal_part(Dir0, P, Part) :-
+    database_part(postgresql(Url), P, Part).
+database_part(Dir0, P, Part) :-
     absolute_file_name(Dir0, Dir),
     atom_concat(process, P, Name),
     directory_file_path(Dir, Name, Part).
@@ -115,23 +114,11 @@ journal_part(Dir0, P, Part) :-
 %
 %   The journal is damaged; Why is the report of the database.
 
-%!  journal_record(+Where, -Text) is semidet.
-%!  journal_record_put(+Where, +Text) is det.
-%!  journal_record_drop(+Where) is det.
+%!  database_record(+Base, -Text) is semidet.
+%!  database_record_put(+Base, +Text) is det.
+%!  database_record_drop(+Base) is det.
 %
 %   See typhon_journal.
-
-journal_record(Where, Text) :-
-    database(Where, Place, Base),
-    in_terms_of(Place, Base, record(Base, Text)).
-
-journal_record_put(Where, Text) :-
-    database(Where, Place, Base),
-    in_terms_of(Place, Base, record_put(Base, Text)).
-
-journal_record_drop(Where) :-
-    database(Where, Place, Base),
-    in_terms_of(Place, Base, record_drop(Base)).
 
                 /*******************************
                 *            SQLITE            *
@@ -190,12 +177,12 @@ database_wrong(sqlite(_), Connection, Why) :-
 
 %   The record is a file that is written completely or not at all.
 
-record(sqlite(Dir), Text) :-
+database_record(sqlite(Dir), Text) :-
     record_file(Dir, File),
     exists_file(File),
     read_file_to_string(File, Text, [encoding(utf8)]).
 
-record_put(sqlite(Dir), Text) :-
+database_record_put(sqlite(Dir), Text) :-
     record_file(Dir, File),
     catch(( folder_made(Dir),
             private_write(File, write_text(Text)) ),
@@ -218,7 +205,7 @@ not_written(Dir, Formal) :-
     format(atom(Why), 'it cannot be written: ~p', [Formal]),
     throw(error(permission_error(open, journal, Dir), context(_, Why))).
 
-record_drop(sqlite(Dir)) :-
+database_record_drop(sqlite(Dir)) :-
     record_file(Dir, File),
     (   exists_file(File)
     ->  delete_file(File)
@@ -298,19 +285,3 @@ is_space('File too large').
 
 not_opened(Place, Why) :-
     throw(error(permission_error(open, journal, Place), context(_, Why))).
-
-prolog:error_message(journal_damaged(Dir, Why)) -->
-    [ 'The journal ~w is damaged: ~p.'-[Dir, Why], nl,
-      'Nothing in it was changed' ].
-prolog:error_message(journal_unreachable(Place, Why)) -->
-    [ 'The journal ~w cannot be reached: ~w'-[Place, Why] ].
-prolog:error_message(journal_unwritten(Place, Why)) -->
-    [ 'The journal ~w cannot be written: ~w.'-[Place, Why], nl,
-      'Nothing more is committed until the process is started again' ].
-prolog:error_message(journal_version(Dir, _)) -->
-    [ 'The journal ~w was written by another version of Prolog or Typhon.'-[Dir],
-      nl, 'Nothing in it was changed' ].
-prolog:error_message(permission_error(open, journal, Dir)) -->
-    [ 'The journal ~w cannot be opened'-[Dir] ].
-prolog:error_message(resource_error(journal_space)) -->
-    [ 'There is no space left for the journal' ].

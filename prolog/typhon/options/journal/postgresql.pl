@@ -35,9 +35,9 @@ environment applies, such as PGPASSWORD, or the defaults of the server.
     typhon_database:database_stamp/3,
     typhon_database:database_same/4,
     typhon_database:database_forgets/4,
-    typhon_database:record/2,
-    typhon_database:record_put/2,
-    typhon_database:record_drop/1,
+    typhon_database:database_record/2,
+    typhon_database:database_record_put/2,
+    typhon_database:database_record_drop/1,
     typhon_database:error_words/3.
 
 :- setting(silent_seconds, positive_integer, 10,
@@ -294,14 +294,15 @@ typhon_database:database_forgets(postgresql(_), normal, Connection, Seconds) :-
     !,
     Seconds is 2+0.005*Milliseconds.
 
-typhon_database:record(postgresql(server(Schema, Driver)), Text) :-
+typhon_database:database_record(postgresql(server(Schema, Driver)), Text) :-
     sql_load,
     connected(Driver, Connection,
               ( has_table(Schema, network, Connection),
                 format(atom(Sql), 'select record from ~w.network', [Schema]),
                 sql_row(Connection, Sql, row(Text), [string]) )).
 
-typhon_database:record_put(postgresql(server(Schema, Driver)), Text) :-
+typhon_database:database_record_put(postgresql(server(Schema, Driver)),
+                                    Text) :-
     split_string(Text, "'", "", Parts),
     atomic_list_concat(Parts, '\'\'', Quoted),
     connected(Driver, Connection,
@@ -314,7 +315,7 @@ typhon_database:record_put(postgresql(server(Schema, Driver)), Text) :-
                     on conflict (one) do update set record=excluded.record',
                    [Schema, Quoted]) )).
 
-typhon_database:record_drop(postgresql(server(Schema, Driver))) :-
+typhon_database:database_record_drop(postgresql(server(Schema, Driver))) :-
     connected(Driver, Connection,
               do(Connection, 'drop table if exists ~w.network', [Schema])).
 

@@ -3,27 +3,21 @@
             journal_open/3,             % +Where, +Sync, +Seconds
             journal_found/1,            % +Where
             journal_place/2,            % +Where, -Place
+            journal_part/3,             % +Where, +P, -Part
+            journal_record/2,           % +Where, -Text
+            journal_record_put/2,       % +Where, +Text
+            journal_record_drop/1,      % +Where
             store_close/0,
             store_sync/1,               % -Sync
             store_commit/1,             % +Changes
             journal_item/5              % +Kind, +Order, -Key, -N, -Value
           ]).
-:- use_module(library(lists), [member/2]).
-:- use_module('../../kernel/base/durable', [crash_point/1]).
+:- use_module(library(error), [domain_error/2]).
+:- use_module('../../kernel/base/on_demand', [on_demand_load/2]).
 :- use_module('../../kernel/base/prolog_faults', [fast_bytes_term/2]).
-:- use_module(database,
-              [ database/3, database_connect/4, database_forgets/4,
-                database_found/1, database_lock/3, database_same/4,
-                database_stamp/3, database_tables/2, database_wrong/3,
-                in_terms_of/3 ]).
-:- use_module(recent,
-              [ recent_before/2, recent_begin/1, recent_committed/1,
-                recent_doubtful/0, recent_end/0 ]).
-:- use_module(sql,
-              [ sql_close/0, sql_disconnect/1, sql_do/2, sql_execute/2,
-                sql_execute/3, sql_load/0, sql_open/1, sql_part/3, sql_row/4 ]).
+:- use_module(item_format, [bytes_sum/2]).
 
-/** <module> The store: items in a database
+/** <module> The store: items in a back end
 
 An item is a term identified by a kind, a key and a number.  Changes are
 
@@ -32,29 +26,41 @@ An item is a term identified by a kind, a key and a number.  Changes are
   - drop_all(Kind, Key), drop_below(Kind, Key, N): delete all items of this key,
     or those with numbers less than N
 
-The database is SQLite in a directory, or PostgreSQL at a URL; higher layers do
-not know which.  A process has one store at a time, and no other process can
-open it meanwhile.  An item that is longer than a parameter of the driver can be
-is stored in parts.
+A back end keeps the items, and defines the hooks below; this module does not
+know which there are.  A process has one store at a time, and no other process
+can open it meanwhile.
 
 *Threading*: one thread at a time.
 */
 
+%   Form is the name of the term Where, or `text`.  Base is the handle that the
+%   other hooks get, Place the name of the journal in errors.
+
 :- multifile
+    backend_place/4,            % +Form, +Where, -Place, -Base
+    backend_part/4,             % +Form, +Where, +P, -Part
+    backend_found/2,            % +Base, +Place: the journal exists
+    backend_open/4,             % +Base, +Place, +Sync, +Seconds
+    backend_close/1,            % +Base
+    backend_commit/3,           % +Base, +Place, +Changes: all or none
+    backend_item/7,             % +Base, +Kind, +Order, -Key, -N, -Bytes, -Sum
+    backend_record/3,           % +Base, +Place, -Text
+    backend_record_put/3,       % +Base, +Place, +Text
+    backend_record_drop/2,      % +Base, +Place
+    fenced/1.                   % Place: another process has opened it.  Called
+                                % once, by the thread that commits, and under a
+                                % mutex: it must not wait
+
+:- multifile
+    prolog:error_message//1,
     typhon_durable:durable_opened/1,
     typhon_durable:durable_item/5,
     typhon_durable:close_store/0,
     typhon_options:declared/4.
 
 :- dynamic
-    connection/2,                       % Place, Connection
-    opened/3,                           % Base, Sync, Stamp
-    broken/1,                           % Error: no commit until it is reopened
-    long/3.                             % Kind, Key, N: has further parts
-
-format_version(1).
-
-part_bytes(30000).
+    opened/3,                           % Place, Base, Sync
+    broken/1.                           % Error: no commit until it is reopened
 
                 /*******************************
                 *        OPEN AND CLOSE        *
@@ -78,87 +84,63 @@ journal_open(Where, Sync) :-
     journal_open(Where, Sync, 0.2).
 
 journal_open(Where, Sync, Seconds) :-
-    database(Where, Place, Base),
-    sql_load,
-    in_terms_of(Place, Base, database_connect(Base, Seconds, Connection, Age)),
-    catch(in_terms_of(Place, Base,
-                      prepare(Age, Place, Base, Sync, Connection)),
-          error(Formal, Context),
-          ( forget(Connection),
-            throw(error(Formal, Context)) )),
-    assertz(connection(Place, Connection)).
+    base(Where, Place, Base),
+    backend_open(Base, Place, Sync, Seconds),
+    assertz(opened(Place, Base, Sync)).
 
 typhon_options:declared(host_option, journal(X), text, X).
-typhon_options:declared(host_option, journal(postgresql(X)), text, X).
 typhon_options:declared(host_option, sync(X), oneof([full, normal]), X).
 
-prepare(Age, Place, Base, Sync, Connection) :-
-    database_lock(Base, Sync, Connection),
-    prepare_tables(Age, Place, Base, Connection),
-    database_stamp(Base, Connection, Stamp),
-    sql_do(Connection, commit),
-    sql_open(Connection),
-    assertz(opened(Base, Sync, Stamp)),
-    (   database_forgets(Base, Sync, Connection, Seconds)
-    ->  recent_begin(Seconds)
-    ;   recent_end
-    ).
-
-prepare_tables(new, _, Base, Connection) :-
-    database_tables(Base, Connection),
-    format_version(Version),
-    sample(Sample),
-    format(atom(About), 'insert into about values (~d, \'~w\')',
-           [Version, Sample]),
-    sql_do(Connection, About).
-prepare_tables(old, Place, Base, Connection) :-
-    (   database_wrong(Base, Connection, Why)
-    ->  throw(error(journal_damaged(Place, Why), _))
-    ;   true
-    ),
-    must_be_ours(Place, Connection),
-    forall(sql_row(Connection, 'select distinct kind, key, n from part',
-                   row(Kind, Key, N), [atom, atom, integer]),
-           assertz(long(Kind, Key, N))).
-
-must_be_ours(Place, Connection) :-
-    format_version(Version),
-    sample(Sample),
-    (   sql_row(Connection, 'select version, sample from about',
-                row(Version0, Sample0), [integer, atom])
-    ->  true
-    ;   throw(error(journal_damaged(Place, 'it has no version'), _))
-    ),
-    (   Version0 == Version,
-        Sample0 == Sample
-    ->  true
-    ;   throw(error(journal_version(Place, Version0), _))
-    ).
-
-%   A process of another version or word size must not read the items: any
-%   difference in their format shows in this sample.
-
-sample(Sample) :-
-    Big is 1<<62,
-    Huge is 1<<70,
-    fast_term_serialized(f(X, X, -1, Big, Huge, 1.5, "text", [a]), Bytes),
-    string_codes(Bytes, Codes),
-    findall(Text, ( member(Code, Codes), format(atom(Text), '~16r.', [Code]) ),
-            Texts),
-    atomic_list_concat(Texts, Sample).
-
 %!  journal_place(+Where, -Place:atom) is det.
+%!  journal_part(+Where, +P, -Part) is det.
 %!  journal_found(+Where) is semidet.
 %
 %   See typhon_journal.  journal_found/1 succeeds if the journal exists.
 
 journal_place(Where, Place) :-
-    database(Where, Place, _).
+    base(Where, Place, _).
+
+journal_part(Where, P, Part) :-
+    form(Where, Form),
+    backend_part(Form, Where, P, Part),
+    !.
 
 journal_found(Where) :-
-    database(Where, Place, Base),
-    sql_load,
-    in_terms_of(Place, Base, database_found(Base)).
+    base(Where, Place, Base),
+    backend_found(Base, Place).
+
+base(Where, Place, Base) :-
+    form(Where, Form),
+    (   backend_place(Form, Where, Place0, Base0)
+    ->  Place = Place0,
+        Base = Base0
+    ;   domain_error(journal, Where)
+    ).
+
+form(Where, Form) :-
+    (   compound(Where)
+    ->  functor(Where, Form, _)
+    ;   Form = text
+    ),
+    on_demand_load(journal, Form).
+
+%!  journal_record(+Where, -Text) is semidet.
+%!  journal_record_put(+Where, +Text) is det.
+%!  journal_record_drop(+Where) is det.
+%
+%   See typhon_journal.
+
+journal_record(Where, Text) :-
+    base(Where, Place, Base),
+    backend_record(Base, Place, Text).
+
+journal_record_put(Where, Text) :-
+    base(Where, Place, Base),
+    backend_record_put(Base, Place, Text).
+
+journal_record_drop(Where) :-
+    base(Where, Place, Base),
+    backend_record_drop(Base, Place).
 
 %!  store_sync(-Sync) is semidet.
 %!  store_close is det.
@@ -166,31 +148,23 @@ journal_found(Where) :-
 %   Sync is that of the open store; close the store.
 
 typhon_durable:durable_opened(Place) :-
-    connection(Place, _).
+    opened(Place, _, _).
 
 store_sync(Sync) :-
-    opened(_, Sync, _).
+    opened(_, _, Sync).
 
 store_close :-
-    (   connection(_, Connection)
-    ->  forget(Connection)
+    (   retract(opened(_, Base, _))
+    ->  retractall(broken(_)),
+        backend_close(Base)
     ;   true
     ).
 
 typhon_durable:close_store :-
     store_close.
 
-forget(Connection) :-
-    retractall(connection(_, _)),
-    retractall(opened(_, _, _)),
-    retractall(broken(_)),
-    retractall(long(_, _, _)),
-    recent_end,
-    sql_close,
-    sql_disconnect(Connection).
-
                 /*******************************
-                *            CHANGES           *
+                *             ITEMS            *
                 *******************************/
 
 %!  store_commit(+Changes:list) is det.
@@ -199,112 +173,28 @@ forget(Connection) :-
 %
 %   @error resource_error(journal_space): the disk is full
 %   @error journal_damaged(Place, Why), journal_unreachable(Place, Why)
-%   @error journal_unwritten(Place, Why): of this commit, and then of each until
-%          the store is reopened.  After a failed fsync the system may drop what
-%          it did not write, and report success for the next.
+%   @error journal_unwritten(Place, Why), permission_error(open, journal, Place):
+%          of this commit, and of each until the store is reopened.  After a
+%          failed fsync the system may drop what it did not write, and report
+%          success for the next; a journal that another process has opened
+%          remains with it
 
 store_commit(_) :-
     broken(Error),
     !,
     throw(Error).
 store_commit(Changes) :-
-    catch(commit_new(Changes), error(journal_unreachable(_, _), _),
-          ( connect_again, commit_new(Changes) )).
-
-commit_new(Changes) :-
-    recent_before(Changes, All),
-    commit_all(All),
-    recent_committed(Changes).
-
-commit_all(Changes) :-
-    connection(Place, _),
-    opened(Base, _, _),
-    catch(in_terms_of(Place, Base, commit(Changes)),
-          error(Formal, Context),
-          ( catch(sql_execute(rollback, []), error(_, _), true),
-            breaks(error(Formal, Context)),
+    opened(Place, Base, _),
+    catch(backend_commit(Base, Place, Changes), error(Formal, Context),
+          ( breaks(Formal, error(Formal, Context)),
             throw(error(Formal, Context)) )).
 
-breaks(Error) :-
-    (   Error = error(journal_unwritten(_, _), _)
+breaks(Formal, Error) :-
+    (   Formal = journal_unwritten(_, _)
     ->  assertz(broken(Error))
-    ;   true
-    ).
-
-%   A server that was restarted has lost the lock of this process, and perhaps
-%   commits.  Another process may have opened the journal meanwhile.
-
-connect_again :-
-    connection(Place, Old),
-    opened(Base, Sync, Stamp),
-    in_terms_of(Place, Base, database_connect(Base, 0, New, _)),
-    catch(in_terms_of(Place, Base, same(Base, Sync, Stamp, Place, New)),
-          error(Formal, Context),
-          ( sql_disconnect(New), throw(error(Formal, Context)) )),
-    sql_close,
-    sql_disconnect(Old),
-    retractall(connection(_, _)),
-    assertz(connection(Place, New)),
-    sql_open(New),
-    recent_doubtful.
-
-same(Base, Sync, Stamp, Place, Connection) :-
-    (   database_same(Base, Sync, Stamp, Connection)
-    ->  true
-    ;   throw(error(permission_error(open, journal, Place),
-                    context(_, 'another process has opened it meanwhile')))
-    ).
-
-%   Transactions of the driver are not used: a full disk ends one without its
-%   knowledge.
-
-commit(Changes) :-
-    sql_execute(begin, []),
-    forall(member(Change, Changes), change(Change)),
-    crash_point(in_commit),
-    sql_execute(commit, []).
-
-change(put(Kind, Key, N, Bytes)) =>
-    check_sum(Bytes, Sum),
-    string_length(Bytes, Length),
-    part_bytes(Most),
-    drop_parts(Kind, Key, N),
-    (   Length =< Most
-    ->  sql_execute(put, [Kind, Key, N, Length, Sum], Bytes)
-    ;   assertz(long(Kind, Key, N)),
-        sub_string(Bytes, 0, Most, _, First),
-        sql_execute(put, [Kind, Key, N, Length, Sum], First),
-        Last is (Length-1)//Most,
-        forall(between(1, Last, Part), put_part(Kind, Key, N, Part, Bytes))
-    ).
-change(drop(Kind, Key, N)) =>
-    drop_parts(Kind, Key, N),
-    sql_execute(drop, [Kind, Key, N]).
-change(drop_all(Kind, Key)) =>
-    forall(long(Kind, Key, N), drop_parts(Kind, Key, N)),
-    sql_execute(drop_all, [Kind, Key]).
-change(drop_below(Kind, Key, N)) =>
-    forall(( long(Kind, Key, N0), N0 < N ), drop_parts(Kind, Key, N0)),
-    sql_execute(drop_below, [Kind, Key, N]).
-
-%   24 bits: term_hash/2 gives 24 or 32 bits in different versions, and the
-%   integers of the driver are signed.
-
-check_sum(Bytes, Sum) :-
-    term_hash(Bytes, Hash),
-    Sum is Hash /\ 0xffffff.
-
-put_part(Kind, Key, N, Part, Bytes) :-
-    part_bytes(Most),
-    Start is Part*Most,
-    string_length(Bytes, Length),
-    Count is min(Most, Length-Start),
-    sub_string(Bytes, Start, Count, _, Piece),
-    sql_execute(put_part, [Kind, Key, N, Part], Piece).
-
-drop_parts(Kind, Key, N) :-
-    (   retract(long(Kind, Key, N))
-    ->  sql_execute(drop_part, [Kind, Key, N])
+    ;   Formal = permission_error(open, journal, Place)
+    ->  assertz(broken(Error)),
+        forall(fenced(Place), true)
     ;   true
     ).
 
@@ -316,14 +206,9 @@ drop_parts(Kind, Key, N) :-
 %   @error journal_damaged(Place, Kind-Key)
 
 journal_item(Kind, Order, Key, N, Value) :-
-    connection(Place, Connection),
-    order(Order, By),
-    format(atom(Sql), 'select key, n, length, sum, value from item \c
-                       where kind=\'~w\'~w', [Kind, By]),
-    sql_row(Connection, Sql, row(Key, N, Length, Sum, First),
-            [atom, integer, integer, integer, string]),
-    whole(Length, Kind-Key-N, First, Bytes),
-    (   check_sum(Bytes, Sum)
+    opened(Place, Base, _),
+    backend_item(Base, Kind, Order, Key, N, Bytes, Sum),
+    (   bytes_sum(Bytes, Sum)
     ->  fast_bytes_term(Bytes, Value)
     ;   throw(error(journal_damaged(Place, Kind-Key), _))
     ).
@@ -331,23 +216,22 @@ journal_item(Kind, Order, Key, N, Value) :-
 typhon_durable:durable_item(Kind, Order, Key, N, Value) :-
     journal_item(Kind, Order, Key, N, Value).
 
-order(any, '').
-order(numbers, ' order by n').
+                /*******************************
+                *            ERRORS            *
+                *******************************/
 
-whole(Length, _, First, Bytes) :-
-    part_bytes(Most),
-    Length =< Most,
-    !,
-    sub_string(First, 0, Length, _, Bytes).
-whole(Length, Kind-Key-N, First0, Bytes) :-
-    part_bytes(Most),
-    sub_string(First0, 0, Most, _, First),
-    findall(Piece,
-            ( sql_part(parts, [Kind, Key, N], Full),
-              string_length(Full, Space),
-              Count is min(Most, Space),
-              sub_string(Full, 0, Count, _, Piece) ),
-            Pieces),
-    atomic_list_concat([First|Pieces], Atom),
-    atom_string(Atom, All),
-    sub_string(All, 0, Length, _, Bytes).
+prolog:error_message(journal_damaged(Dir, Why)) -->
+    [ 'The journal ~w is damaged: ~p.'-[Dir, Why], nl,
+      'Nothing in it was changed' ].
+prolog:error_message(journal_unreachable(Place, Why)) -->
+    [ 'The journal ~w cannot be reached: ~w'-[Place, Why] ].
+prolog:error_message(journal_unwritten(Place, Why)) -->
+    [ 'The journal ~w cannot be written: ~w.'-[Place, Why], nl,
+      'Nothing more is committed until the process is started again' ].
+prolog:error_message(journal_version(Dir, _)) -->
+    [ 'The journal ~w was written by another version of Prolog or Typhon.'-[Dir],
+      nl, 'Nothing in it was changed' ].
+prolog:error_message(permission_error(open, journal, Dir)) -->
+    [ 'The journal ~w cannot be opened'-[Dir] ].
+prolog:error_message(resource_error(journal_space)) -->
+    [ 'There is no space left for the journal' ].
