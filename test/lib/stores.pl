@@ -5,7 +5,8 @@
             items/2,                    % +Kind, -Items
             stored/1,                   % -What
             store_keeps/2,              % +What, +Where
-            while_open_elsewhere/3      % +Where, -Pid, :Goal
+            while_open_elsewhere/3,     % +Where, -Pid, :Goal
+            while_open_elsewhere/4      % +Before, +Where, -Pid, :Goal
           ]).
 
 /** <module> The store of a journal, for tests
@@ -21,7 +22,8 @@
 :- meta_predicate
     with_store(+, 0),
     with_store(+, +, 0),
-    while_open_elsewhere(+, -, 0).
+    while_open_elsewhere(+, -, 0),
+    while_open_elsewhere(+, +, -, 0).
 
 %!  with_store(+Where, :Goal) is semidet.
 %!  with_store(+Where, +Sync, :Goal) is semidet.
@@ -91,13 +93,20 @@ store_keeps(long_terms_replaced_by_short_ones, Where) :-
     with_store(Where, items(a, [])).
 
 %!  while_open_elsewhere(+Where, -Pid, :Goal) is semidet.
+%!  while_open_elsewhere(+Before, +Where, -Pid, :Goal) is semidet.
 %
-%   Goal is called once while the store at Where is open in the process Pid.
+%   Goal is called once while the store at Where is open in the process Pid,
+%   which has called Before.
 
 while_open_elsewhere(Where, Pid, Goal) :-
+    while_open_elsewhere(true, Where, Pid, Goal).
+
+while_open_elsewhere(Before, Where, Pid, Goal) :-
+    project_file('prolog/typhon.pl', Library),
     project_file('prolog/typhon/options/journal/store.pl', Store),
-    format(atom(Opens), 'journal_open(~q, normal), writeln(open), \c
-                         flush_output, read(_)', [Where]),
-    with_swipl(['-g', Opens, '-t', halt, Store], Pid, _, Out,
+    format(atom(Opens), '~q, ~q, journal_open(~q, normal), writeln(open), \c
+                         flush_output, read(_)',
+           [use_module(Store), Before, Where]),
+    with_swipl(['-g', Opens, '-t', halt, Library], Pid, _, Out,
                ( read_line_to_string(Out, "open"),
                  call(Goal) )).

@@ -43,6 +43,7 @@ joins(host_option,'options/quotas',[quota]).
 joins(host_option,'options/tls',[tls]).
 joins(host_option,'options/trail',[trail]).
 joins(host_option,'options/virtual',[clock]).
+joins(journal,'options/fleet',[redis]).
 joins(journal,'options/journal',[postgresql,text]).
 joins(keys,'options/identity',[any]).
 joins(keys,'options/trail',[any]).
@@ -99,6 +100,7 @@ files('options/cell',['options/cell/cell_hosts','options/cell/gatekeeper']).
 files('options/concurrency',['options/concurrency']).
 files('options/directory',['options/directory/offers']).
 files('options/external_recipients',['options/external_recipients']).
+files('options/fleet',['options/fleet/fleet_journal','options/fleet/members','options/fleet/tags']).
 files('options/guard',['options/guard']).
 files('options/host_log',['options/host_log']).
 files('options/identity',['options/identity/authors','options/identity/birth','options/identity/sender_rights']).
@@ -135,10 +137,13 @@ part_setting(cells,typhon_offers,positive_integer,1000,'Cells of an offer, at mo
 part_setting(cells,typhon_pheromone,positive_integer,1000,'Cells of the problem of a pheromone, at most; eight characters of a text count as one','options/migration/pheromone').
 part_setting(certificates,typhon_keys,positive_integer,256,'Certificates whose holder is cached','options/keys').
 part_setting(channel_seconds,typhon_channel,number,300,'Seconds for which posts are kept for a process that has left, and is not known to keep a journal','options/journal/channel').
+part_setting(choice_seconds,typhon_fleet,number,0.5,'Seconds for which a list of hosts serves for choices by any(Tag)','options/fleet/tags').
 part_setting(clause_cells,typhon_guard_limits,positive_integer,200000,'Clauses that untrusted agents add have at most so many parts','options/guard/guard_limits').
 part_setting(connections,typhon_page_reception,positive_integer,64,'Clients of a page at a time','tools/page/server').
 part_setting(content_characters,typhon_host_log,positive_integer,200,'The text of longer messages is cut to this many characters','options/host_log').
 part_setting(delay,typhon_event_sender,number,0.05,'Seconds for which events gather before they are sent','options/watch/event_sender').
+part_setting(engine_pause,typhon_fleet,number,0.5,'Seconds for which an engine that is down is not asked again','options/fleet/engine').
+part_setting(engine_seconds,typhon_fleet,number,2,'Seconds after which an engine that does not answer counts as down','options/fleet/engine').
 part_setting(entries,typhon_fipa_managers,positive_integer,10000,'Descriptions in a directory of FIPA','bridges/fipa/managers').
 part_setting(events,typhon_watch_senders,positive_integer,10000,'Events that may wait for a slow watch','options/watch/watch_senders').
 part_setting(files,typhon_loaded,nonneg,64,'Programs remembered as they were read','language/programs').

@@ -89,6 +89,7 @@ journal_open(Where, Sync, Seconds) :-
     assertz(opened(Place, Base, Sync)).
 
 typhon_options:declared(host_option, journal(X), text, X).
+typhon_options:declared(host_option, journal(redis(X)), atom, X).
 typhon_options:declared(host_option, sync(X), oneof([full, normal]), X).
 
 %!  journal_place(+Where, -Place:atom) is det.

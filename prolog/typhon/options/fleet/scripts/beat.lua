@@ -15,9 +15,9 @@ local function key(what) return p..'j:'..journal..':'..what end
 local owner = call('HGET', process, 'token')
 if owner and owner ~= token and ARGV[5] ~= '1' then return {'fenced'} end
 if journal ~= '' then
-  local o = call('GET', key('owner'))
-  if o and o ~= ARGV[9] then return {'usurped'} end
-  if o then call('SET', key('lease'), o, 'PX', ttl) end
+  local lost = not_owner(key('owner'), ARGV[9])
+  if lost == 'fenced' then return {'usurped'} end
+  if not lost then call('SET', key('lease'), ARGV[9], 'PX', ttl) end
 end
 if owner ~= token then
   status = 'new'

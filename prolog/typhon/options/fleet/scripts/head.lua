@@ -53,3 +53,14 @@ local function endpoint(name)
   return string.match(name, '[^@]*$')
 end
 
+
+-- The owner of a journal is 'EPOCH token'. An engine that has lost its last
+-- second, or all, may know an earlier one, or none.
+
+local function not_owner(key, owner)
+  local is = call('GET', key)
+  if is == owner then return nil end
+  if not is then return 'lost' end
+  local function epoch(o) return tonumber(string.match(o, '^%d+')) end
+  return epoch(is) < epoch(owner) and 'lost' or 'fenced'
+end
