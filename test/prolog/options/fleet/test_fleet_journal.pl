@@ -1,4 +1,5 @@
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/journaled').
 :- use_module('../../../lib/redis').
 :- use_module('../../../lib/stores').
 :- use_module('../../../lib/texts', [message_text/2]).
@@ -346,5 +347,27 @@ test(journal_that_was_not_filled_to_the_end_is_damaged,
                             redis_empty(Redis),
                             error_of(commit([]), journal_unreachable(_, _)) )),
              error_of(with_journal(true), Formal) )).
+
+                /*******************************
+                *            AGENTS            *
+                *******************************/
+
+test(agent_survives_a_killed_process) :-
+    with_redis(Redis, ( backend(Redis, Backend), agent_survives(Backend) )).
+test(agent_goes_on_when_the_engine_returns,
+     [ forall(member(Goes-Returns,
+                     [ redis_signal(kill)-redis_restart,
+                       redis_signal(stop)-redis_signal(cont),
+                       emptied_and_killed-redis_restart ])) ]) :-
+    with_redis(Redis, ( backend(Redis, Backend),
+                        agent_goes_on(Backend, call(Goes, Redis),
+                                      call(Returns, Redis)) )).
+
+backend(Redis, backend(Before, redis('lab/a'))) :-
+    before(Redis, Before).
+
+emptied_and_killed(Redis) :-
+    redis_empty(Redis),
+    redis_signal(kill, Redis).
 
 :- end_tests(fleet_journal).

@@ -1,10 +1,10 @@
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/journaled').
 :- use_module('../../../lib/postgres').
 :- use_module('../../../lib/stores').
 :- use_module(library(plunit)).
 :- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(process), [process_kill/2, process_wait/2]).
-:- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/options/journal), [journal_place/2]).
 
@@ -122,44 +122,6 @@ test(process_continues_after_the_server_vanished) :-
                         goes_on(Url, postgres_relay(vanish),
                                 postgres_relay(return))).
 
-:- meta_predicate
-    goes_on(+, 0, 0),
-    server_returns(+, +, 0, 0).
-
-goes_on(Url, Goes, Returns) :-
-    free_port(Port),
-    format(atom(Host), 'alpha@127.0.0.1:~d', [Port]),
-    setup_call_cleanup(
-        host_start(driver),
-        killed(Url, Port, Out, server_returns(Host, Out, Goes, Returns)),
-        host_stop(driver)).
-
-server_returns(Host, Out, Goes, Returns) :-
-    host_property(driver, address(Other)),
-    agent_create(clauses([ (:- agent(goes, [state([made/1, other/1])])),
-                           made(0),
-                           (main :- made(100), !),
-                           (main :- other(Other), home(Home),
-                                    goes(Other), goes(Home),
-                                    retract(made(N)), N1 is N+1,
-                                    assertz(made(N1)),
-                                    ( take(made(V)) -> true ; V = 0 ),
-                                    V1 is V+1, leave(made(V1)),
-                                    main),
-                           (goes(H) :- catch(( move(H), Gone = yes ),
-                                             error(journal_unreachable(_, _), _),
-                                             Gone = no),
-                                       ( Gone == yes -> true
-                                       ; sleep(0.1), goes(H) )) ]),
-                 Agent, [host(Host), facts([other(Other)])]),
-    wait_until(( agent_property(Agent, hops(Hops)), Hops > 20 ), 10),
-    call(Goes),
-    agent_send(Agent, hello),
-    read_line_to_string(Out, "unreachable"),
-    call(Returns),
-    agent_join(Agent, done, 60),
-    remote(Host, findall(V, sense(made(V)), [100])).
-
 test(journal_taken_over_by_another_process_is_refused) :-
     catch(with_schema(passed_on,
                      ( commit([a-k-0-first]),
@@ -171,24 +133,7 @@ test(journal_taken_over_by_another_process_is_refused) :-
     with_schema(passed_on, items(a, [k-0-first])).
 test(agent_survives_a_killed_process) :-
     postgres_url(alpha, Url),
-    free_port(Port),
-    format(atom(Host), 'alpha@127.0.0.1:~d', [Port]),
-    setup_call_cleanup(
-        host_start(driver),
-        ( killed(Url, Port,
-                 ( agent_create(clauses([ (:- agent(waits, [])),
-                                          (main :- receive(_-X),
-                                                   receive(_-Y),
-                                                   result(X+Y)) ]), A,
-                                [host(Host)]),
-                   agent_send(A, 1),
-                   wait_until(agent_property(A, mailbox([])), 5),
-                   remote(Host, leave(here)) )),
-          killed(Url, Port,
-                 ( remote(Host, sense(here)),
-                   agent_send(A, 2),
-                   agent_result(A, 1+2, 10) )) ),
-        host_stop(driver)).
+    agent_survives(backend(true, Url)).
 
 test(network_survives_a_killed_process,
      Told = [node_back(_, 2)]) :-
@@ -248,30 +193,12 @@ cut(Schema) :-
           typhon_sql:sql_do(C, Sql) ),
         typhon_sql:sql_disconnect(C)).
 
-:- meta_predicate
-    killed(+, +, 0),
-    killed(+, +, -, 0).
+:- meta_predicate goes_on(+, 0, 0).
 
-killed(Url, Port, Goal) :-
-    killed(Url, Port, _, Goal).
+%   A silent machine is given up soon.
 
-%   Out reports when the process notices that it cannot commit. A silent
-%   machine is given up soon.
-
-killed(Url, Port, Out, Goal) :-
-    project_file('prolog/typhon.pl', Library),
-    format(atom(Start), 'host_start(alpha, [journal(~q), port(~d)]), \c
-                         writeln(ready), flush_output, thread_get_message(x)',
-           [Url, Port]),
-    format(atom(Tells), '~q',
-           [ assertz((user:message_hook(error(journal_unreachable(_, _), _),
-                                        error, _) :-
-                          writeln(unreachable), flush_output)) ]),
-    with_swipl(['-g', 'set_setting(typhon_postgresql:silent_seconds, 4)',
-                '-g', Tells, '-g', Start, Library], Pid, _, Out,
-               ( read_line_to_string(Out, "ready"),
-                 call(Goal),
-                 process_kill(Pid, kill),
-                 process_wait(Pid, _) )).
+goes_on(Url, Goes, Returns) :-
+    Soon = set_setting(typhon_postgresql:silent_seconds, 4),
+    agent_goes_on(backend(Soon, Url), Goes, Returns).
 
 :- end_tests(postgresql).
