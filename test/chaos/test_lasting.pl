@@ -36,11 +36,32 @@ test(stopped_hosts_lose_and_duplicate_no_agent, Wrong == []) :-
                             kill(0.6), faults([rest]), slow(0.05), most(15) ],
                           Wrong)).
 
+:- end_tests(lasting).
+
+:- begin_tests(lasting_fleet, [condition(\+ missing([fleet], _))]).
+
+%   The same with journals in the engine of a fleet, which has faults, too.
+
+test(journals_in_an_engine_lose_and_duplicate_no_agent, Wrong == []) :-
+    with_tmp_dir(attacked([ fleet(true), processes(3), agents(10), hops(40),
+                            crash(0.0005), kill(0.5),
+                            faults([ kill, kill_all, stop, cut, engine_kill,
+                                     engine_stop, usurp ]), most(12) ],
+                          Wrong)).
+
+%   An engine that is empty has nothing of a process that ends meanwhile.
+
+test(emptied_engine_loses_no_agent_of_processes_that_live, Wrong == []) :-
+    with_tmp_dir(attacked([ fleet(true), processes(3), agents(10), hops(100),
+                            crash(0), kill(0.4),
+                            faults([engine_empty, engine_kill, stop, cut]),
+                            most(8) ], Wrong)).
+
+:- end_tests(lasting_fleet).
+
 attacked(Options, Wrong, Dir) :-
     random_between(1, 1000000, Seed),
     format('% seed ~d~n', [Seed]),
     lasting([dir(Dir), seed(Seed), seconds(280)|Options],
             report(Facts, Wrong)),
     format('% ~p~n', [Facts]).
-
-:- end_tests(lasting).

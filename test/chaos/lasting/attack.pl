@@ -16,17 +16,19 @@ agent arrive in order.
 :- use_module(nodes).
 :- use_module(verdict).
 :- use_module('../../lib/common', [project_file/2]).
+:- use_module('../../lib/redis', [with_redis/2]).
 :- use_module('../../../prolog/typhon').
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [append/2, append/3, member/2, nth0/3]).
-:- use_module(library(option), [option/3]).
+:- use_module(library(option), [option/2, option/3]).
 
 %!  lasting(+Options, -Report) is det.
 %
 %   Options: dir(Dir), processes(N), agents(N), hops(N) of each, seed(Seed),
 %   crash(P) at each step, power(P) for a power failure at a commit, for
 %   sync(full) only, kill(Seconds) between faults from outside, most(N) faults,
-%   sync(How), seconds(Limit).  Report is report(Facts, Wrong).
+%   sync(How), seconds(Limit), fleet(true) for journals in the engine of a fleet.
+%   Report is report(Facts, Wrong).
 
 lasting(Options, report(Facts, Wrong)) :-
     option(seed(Seed), Options, 1),
@@ -34,15 +36,25 @@ lasting(Options, report(Facts, Wrong)) :-
     option(hops(Each), Options, 100),
     set_random(seed(Seed)),
     get_time(Start),
-    setup_call_cleanup(
-        host_start(driver),
-        with_nodes(Options, Nodes, attacked(Nodes, Options, Wrong), Told),
-        host_stop(driver)),
+    with_engine(Options, All,
+                setup_call_cleanup(
+                    host_start(driver),
+                    with_nodes(All, Nodes, attacked(Nodes, All, Wrong), Told),
+                    host_stop(driver))),
     get_time(End),
     Seconds is End-Start,
     Hops is Agents*Each,
     PerSecond is Hops/Seconds,
     Facts = [seconds(Seconds), hops(Hops), per_second(PerSecond)|Told].
+
+:- meta_predicate with_engine(+, -, 0).
+
+with_engine(Options, All, Goal) :-
+    (   option(fleet(true), Options)
+    ->  with_redis(Redis, ( All = [engine(Redis)|Options], call(Goal) ))
+    ;   All = Options,
+        once(Goal)
+    ).
 
 attacked(Nodes, Options, Wrong) :-
     option(agents(Agents), Options, 6),

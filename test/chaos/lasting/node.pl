@@ -2,9 +2,10 @@
 
 /** <module> A process with a journal, which dies at its steps
 
-    swipl node.pl -- NAME PORT DIR SYNC SEED
+    swipl node.pl -- NAME PORT DIR SYNC SEED ENGINE
 
-Starts the host NAME; prints `ready`; ends with its standard input, from
+Starts the host NAME, with its journal in DIR, or in the engine at the port
+ENGINE, if that is not `none`; prints `ready`; ends with its standard input, from
 which it takes terms:
 
   - dies(P): at each step of the journal, see crash_point/1, it kills itself
@@ -39,7 +40,9 @@ meanwhile. power.pl does the rest.
     begins/2,                           % Name, Options of its host
     fails/0.                            % the power fails
 
-:- multifile typhon_durable:reached/1.
+:- multifile
+    typhon_durable:reached/1,
+    typhon_store:fenced/1.
 
 typhon_durable:reached(in_commit) :-
     slow(Seconds),
@@ -90,14 +93,15 @@ die_soon :-
 
 :- public main/1.
 
-main([Name, Port0, Dir, Sync, Seed0]) :-
+main([Name, Port0, Dir, Sync, Seed0, Engine]) :-
     atom_number(Port0, Port),
     atom_number(Seed0, Seed),
     set_random(seed(Seed)),
     set_prolog_flag(verbose, silent),
     assertz(journal(Dir)),
     obey_first,
-    assertz(begins(Name, [journal(Dir), sync(Sync), port(Port)])),
+    journal_option(Engine, Name, Dir, Journal),
+    assertz(begins(Name, [sync(Sync), port(Port)|Journal])),
     begin,
     format('ready~n'),
     flush_output,
@@ -110,9 +114,36 @@ main([Name, Port0, Dir, Sync, Seed0]) :-
         fail
     ).
 
+%   The engine may be away.
+
+journal_option(none, _, Dir, [journal(Dir)]) :-
+    !.
+journal_option(Engine, Name, _, [journal(redis(Path)), fleet(lab)]) :-
+    atom_number(Engine, Port),
+    atom_concat('lab/', Name, Path),
+    patiently(fleet_join(lab, [ redis('127.0.0.1':Port), lease(1.5),
+                                fsync(always) ])).
+
 begin :-
     begins(Name, Options),
-    host_start(Name, Options).
+    patiently(host_start(Name, Options)).
+
+:- meta_predicate patiently(0).
+
+patiently(Goal) :-
+    (   catch(Goal, error(Formal, Context),
+              ( Formal = journal_unreachable(_, _) -> fail
+              ; Formal = resource_error(fleet(_)) -> fail
+              ; throw(error(Formal, Context)) ))
+    ->  true
+    ;   sleep(0.2),
+        patiently(Goal)
+    ).
+
+%   What it would send now might contradict what was taken over.
+
+typhon_store:fenced(_) :-
+    die.
 
 %   The process may die before it has restarted.
 

@@ -12,7 +12,9 @@
 Each is restarted when it dies. While faults are on they kill themselves at
 the steps of the journal, the power fails, and from time to time one of them
 has a fault: it is killed, or all are; it is suspended for a while; its
-connections break; its disk is full.
+connections break; its disk is full. Journals may be in the engine of a fleet,
+which is killed, suspended or emptied then, or opens a journal for another
+process while the one that has it is suspended.
 
 *Threading*: a thread supervises each process, and another one causes faults;
 the rest is for one thread.
@@ -29,6 +31,8 @@ the rest is for one thread.
 :- use_module(library(readutil), [read_file_to_string/3, read_line_to_string/2]).
 :- use_module('../../../prolog/typhon/kernel/base/prolog_faults', [spawn/3]).
 :- use_module('../../lib/common', [free_port/1, wait_until/2]).
+:- use_module('../../lib/redis',
+              [redis_empty/1, redis_line/3, redis_restart/1, redis_signal/2]).
 
 :- meta_predicate with_nodes(+, -, 0, -).
 
@@ -41,6 +45,7 @@ the rest is for one thread.
     child/3,                            % Name, Pid, In
     ready/1,                            % Pid: its host has started
     orders/1,                           % the first orders of a child
+    engine/1,                           % Redis: has the journals
     calm/0,                             % processes that end are not started again
     guard/1,                            % Thread
     fault_thread/1,                     % Thread
@@ -61,6 +66,8 @@ with_nodes(Options, Nodes, Goal, Told) :-
     retractall(most(_)),
     retractall(orders(_)),
     assertz(orders([])),
+    retractall(engine(_)),
+    forall(option(engine(Redis), Options), assertz(engine(Redis))),
     setup_call_cleanup(
         maplist(watch_over, Nodes),
         once(Goal),
@@ -186,9 +193,10 @@ died(Status, Said) :-
 start(node(Name, Port, Dir, Sync, Swipl), Pid, In, Out, Err) :-
     node_file(File),
     random_between(1, 1000000, Seed),
+    ( engine(redis(Engine, _, _)) -> true ; Engine = none ),
     spawn(path(sh),
           [ '-c', 'trap "" XFSZ; exec "$@"', sh, Swipl, File, '--',
-            Name, Port, Dir, Sync, Seed ],
+            Name, Port, Dir, Sync, Seed, Engine ],
           [ stdin(pipe(In)), stdout(pipe(Out)), stderr(pipe(Err)),
             process(Pid) ]),
     with_mutex(lasting_orders,
@@ -307,9 +315,46 @@ happens(full, Pid-_) :-
     for_a_while,
     longest_file(Pid, unlimited).
 happens(full, _).
+happens(engine_kill, _) :-
+    engine(Redis),
+    redis_signal(Redis, kill),
+    for_a_while,
+    redis_restart(Redis).
+happens(engine_stop, _) :-
+    engine(Redis),
+    redis_signal(Redis, stop),
+    for_a_while(6.0),
+    redis_signal(Redis, cont).
+happens(engine_empty, _) :-
+    engine(Redis),
+    redis_empty(Redis).
+happens(usurp, Pid-_) :-
+    ready(Pid),
+    !,
+    engine(Redis),
+    child(Name, Pid, _),
+    signalled(Pid, stop),
+    usurped(Redis, Name),
+    signalled(Pid, cont).
+happens(usurp, _).
+
+%   Another process opens the journal, and closes it without a change.
+
+usurped(Redis, Name) :-
+    atomic_list_concat(['f:{lab}:j:', Name, ':owner'], Key),
+    redis_line(Redis, [get, Key], [Owner]),
+    split_string(Owner, " ", "", [Epoch0|_]),
+    number_string(Epoch, Epoch0),
+    Later is Epoch+1,
+    format(atom(Other), '~d ', [Later]),
+    redis_line(Redis, [set, Key, Other], _),
+    for_a_while.
 
 for_a_while :-
-    random(0.1, 2.0, Seconds),
+    for_a_while(2.0).
+
+for_a_while(Most) :-
+    random(0.1, Most, Seconds),
     (   peace_within(Seconds)
     ->  thread_self(Me),
         thread_send_message(Me, faults_end)

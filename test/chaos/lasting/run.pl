@@ -5,7 +5,10 @@
     swipl test/chaos/lasting/run.pl -- [--seed N] [--seconds N]
         [--processes N] [--agents N] [--hops N] [--crash P] [--power P]
         [--kill SECONDS] [--faults '[kill,kill_all,stop,cut,full,rest]']
-        [--slow SECONDS] [--sync normal|full] [--limit SECONDS]
+        [--slow SECONDS] [--sync normal|full] [--limit SECONDS] [--fleet]
+
+With --fleet the journals are in the engine of a fleet, and faults may also be
+engine_kill, engine_stop, engine_empty and usurp.
 
 Runs rounds until the given seconds are over, each with the next seed, with
 sync(normal) and sync(full) in turn if none is given. The exit status is 0 if
@@ -39,6 +42,7 @@ opt_type(power,     power,     number).
 opt_type(kill,      kill,      number).
 opt_type(slow,      slow,      number).
 opt_type(faults,    faults,    term).
+opt_type(fleet,     fleet,     boolean).
 opt_type(sync,      sync,      oneof([normal, full])).
 
 main(Argv) :-

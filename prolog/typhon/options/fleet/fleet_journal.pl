@@ -29,7 +29,6 @@ Keys, for each Name:
 
   | i:Name         | hash   | `Kind N Key` -> sum and bytes; `about`: the format |
   | j:Name:owner   | string | number and token of the process that has it        |
-  | j:Name:epoch   | number | how often it was opened                            |
   | j:Name:lease   | string | lapses unless the owner renews it                  |
   | j:Name:number  | number | of the last commit                                 |
   | j:Name:parts   | hash   | items of a commit, or a copy, that is not complete |

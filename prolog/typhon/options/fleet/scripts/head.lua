@@ -54,13 +54,15 @@ local function endpoint(name)
 end
 
 
--- The owner of a journal is 'EPOCH token'. An engine that has lost its last
--- second, or all, may know an earlier one, or none.
+-- The owner of a journal is 'EPOCH token', or 'EPOCH ' when it is closed. An
+-- engine that has lost its last second, or all, may know an earlier one, or none.
+
+local function epoch_of(owner)
+  return tonumber(string.match(owner or '0', '^%d+'))
+end
 
 local function not_owner(key, owner)
   local is = call('GET', key)
   if is == owner then return nil end
-  if not is then return 'lost' end
-  local function epoch(o) return tonumber(string.match(o, '^%d+')) end
-  return epoch(is) < epoch(owner) and 'lost' or 'fenced'
+  return epoch_of(is or nil) < epoch_of(owner) and 'lost' or 'fenced'
 end

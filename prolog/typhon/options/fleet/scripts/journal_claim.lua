@@ -14,7 +14,6 @@ if lost then
     call('SET', key('grace'), 1, 'PX', ttl)
   end
   call('SET', key('owner'), owner)
-  call('SET', key('epoch'), string.match(owner, '^%d+'))
 end
 call('SET', key('lease'), owner, 'PX', ttl)
 if call('EXISTS', key('grace')) == 1 then return 'wait' end
