@@ -1,10 +1,12 @@
 :- use_module(common).
+:- use_module('../test/lib/redis', [redis_address/2, with_redis/3]).
+:- use_module('../test/lib/stores', [commit/1, with_store/3]).
 :- use_module('../experiments/engine/numbers', [median/2]).
 :- use_module(traveller).
 :- use_module(library(typhon)).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(filesex), [delete_directory_and_contents/1]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [last/2, member/2]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 
@@ -17,8 +19,12 @@
     For agents with large states: the cost of a turn that changes one fact, and
     the messages per second of an agent that stores all its messages.
 
+    For back ends: commits of three items of 300 bytes in SQLite and in the
+    engine of a fleet, Redis, in turn, where nothing else is committed.
+
     swipl bench/journal.pl -- unpinned
-    swipl bench/journal.pl -- states */
+    swipl bench/journal.pl -- states
+    swipl bench/journal.pl -- commits */
 
 :- initialization(main, main).
 
@@ -30,9 +36,12 @@ main([unpinned]) :-
              median(Values, Median),
              figure(Name, Median, Unit, Note) )),
     states,
+    commits,
     recovery(100000).
 main([states]) :-
     states.
+main([commits]) :-
+    commits.
 
 rounds(3).
 
@@ -64,6 +73,8 @@ figure_of('the disk alone syncs, times per second', '1/s',
 
 rates(Sync, One, Hundred) :-
     with_directory(rates(Sync, One, Hundred)).
+
+:- meta_predicate with_directory(1).
 
 with_directory(Goal) :-
     tmp_file(journal, Dir),
@@ -218,6 +229,50 @@ send_and_wait(Agent, From, To, Seconds) :-
               agent_property(Agent, mailbox([])),
               ! ),
                 Seconds).
+
+                /*******************************
+                *           BACK ENDS          *
+                *******************************/
+
+%   Redis writes what it commits to its disk at once, as SQLite with sync(full),
+%   or each second.
+
+commits :-
+    forall(member(Sync-Fsync, [normal-everysec, full-always]),
+           with_redis(['--appendfsync', Fsync], Redis,
+                      with_directory(commits(Sync, Fsync, Redis)))).
+
+commits(Sync, Fsync, Redis, Dir) :-
+    redis_address(Redis, Address),
+    setup_call_cleanup(fleet_join(bench, [redis(Address), fsync(Fsync)]),
+                       compare_commits(Sync, Dir),
+                       fleet_leave(bench)).
+
+compare_commits(Sync, Dir) :-
+    rounds(Rounds),
+    findall(A-B,
+            ( between(1, Rounds, _),
+              commit_seconds(Dir, Sync, B),
+              commit_seconds(redis('bench/a'), Sync, A) ),
+            Pairs),
+    findall(Ratio, ( member(A-B, Pairs), Ratio is A/B ), Ratios),
+    median(Ratios, Median),
+    last(Pairs, A-B),
+    format(atom(Name), 'a commit in Redis, sync(~w)', [Sync]),
+    format(atom(Note), '~3g ms against ~3g (one in SQLite)', [1000*A, 1000*B]),
+    figure(Name, Median, times, Note).
+
+commit_seconds(Where, Sync, Seconds) :-
+    Count = 1000,
+    format(string(Text), '~`xt~300|', []),
+    with_store(Where, Sync,
+               ( commit([a-k-0-Text]),
+                 seconds(forall(between(1, Count, N),
+                                ( N1 is N+1, N2 is N+2,
+                                  commit([ a-k-N-Text, a-l-N1-Text,
+                                           a-m-N2-Text ]) )),
+                         All) )),
+    Seconds is All/Count.
 
                 /*******************************
                 *           RECOVERY           *

@@ -49,8 +49,8 @@ with_journal(Goal) :-
     with_store(redis('lab/a'), Goal).
 
 error_of(Goal, Formal) :-
-    catch(Goal, error(Formal, _), true),
-    ( var(Formal) -> Formal = none ; true ).
+    catch(( Goal, Formal0 = none ), error(Formal0, _), true),
+    Formal = Formal0.
 
 %   While the engine is away, for half a second no call reaches it.
 
