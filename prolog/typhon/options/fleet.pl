@@ -3,10 +3,12 @@
             fleet_leave/1,              % +Fleet
             fleet_hosts/3,              % +Fleet, -Hosts, +Options
             fleet_watch/3,              % +Fleet, :OnChange, -Watch
-            fleet_unwatch/1             % +Watch
+            fleet_unwatch/1,            % +Watch
+            fleet_drain/2               % +Host, +Options
           ]).
 :- use_module(library(error), [must_be/2]).
 :- use_module(fleet/fleet_words, []).
+:- autoload('fleet/drain', [drain_host/2]).
 :- autoload('fleet/fleet_watches', [unwatch_fleet/1, watch_fleet/3]).
 :- autoload('fleet/members', [join_fleet/2, leave_fleet/1]).
 :- autoload('fleet/tags', [hosts_of_fleet/3]).
@@ -96,3 +98,21 @@ fleet_watch(Fleet, OnChange, Watch) :-
 
 fleet_unwatch(Watch) :-
     unwatch_fleet(Watch).
+
+%!  fleet_drain(+Host, +Options) is det.
+%
+%   Host, of this process, is drained: any(Tag) chooses it no more, its agents
+%   are ordered to others, and then it leaves its fleet, but goes on.  Agents that
+%   do not leave, such as static ones, stay and are listed.  Options:
+%
+%     - to(Tag): they go to hosts with this tag, or with all of a list of tags;
+%       default the first tag of Host, or any host if it has none
+%     - seconds(Seconds): how long agents have to leave; default 60
+%     - stay(-Agents): the agents that stay; without it a warning lists them
+%
+%   @error existence_error(host, Host), existence_error(fleet_of_host, Host)
+%   @error resource_error(hosts(Tag)): no other host that is up has the tag
+%   @error resource_error(fleet(Fleet)), domain_error(drain_option, Option)
+
+fleet_drain(Host, Options) :-
+    drain_host(Host, Options).

@@ -82,6 +82,8 @@ prolog:error_message(existence_error(fleet, any(Tag))) -->
 prolog:error_message(existence_error(fleet, Fleet)) -->
     [ 'This process has not joined a fleet ~p: see fleet_join/2'-[Fleet] ],
     meant(fleet, Fleet).
+prolog:error_message(existence_error(fleet_of_host, Host)) -->
+    [ 'Host ~w is in no fleet, or was drained'-[Host] ].
 prolog:error_message(existence_error(tag, Tag)) -->
     [ 'No host has the tag ~p'-[Tag] ],
     meant(tag, Tag).

@@ -12,6 +12,7 @@
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../../kernel/base/monotonic', [deadline/2, monotonic_time/1]).
 :- use_module('../../kernel/base/names', [must_be_name/2]).
+:- use_module('../../kernel/base/on_demand', [on_demand_load/2]).
 :- use_module('../../kernel/base/options', [check_options/2]).
 :- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
 :- use_module('../../kernel/base/server',
@@ -35,6 +36,7 @@ modules add by the hooks work/1 and order/2.
     beaten/3,                   % Fleet, Parked, Orphans: the engine has answered
     fenced/2,                   % Fleet, Why: another process has the address or
                                 % the journal of this one
+    is_gone/1,                  % Host: it has left its fleet, and runs
     is_new/1,                   % Fleet: the engine did not know this process
     journal/3,                  % Fleet, -Name, -Token: of this process
     order/2,                    % Message, Fleet: of fleet_tell/2
@@ -75,6 +77,7 @@ join_fleet(Fleet, Options) :-
     ->  true
     ;   existence_error(option, redis)
     ),
+    on_demand_load(fleet, joined),
     with_mutex(typhon_members, join(Fleet, Options)),
     forall(( host(Host, _, _), host_option(Host, fleet(Fleet)) ),
            fleet_tell(Fleet, beat)).
@@ -167,6 +170,7 @@ fleet_tell(Fleet, Message) :-
 fleet_host(Host, Fleet, Tags) :-
     host(Host, _, _),
     host_option(Host, fleet(Fleet)),
+    \+ is_gone(Host),
     (   host_option(Host, tags(Tags0)),
         \+ tags_hidden(Host)
     ->  Tags = Tags0
