@@ -6,7 +6,9 @@
             peer_agent/4,               % +Peer, +Clauses, +Facts, -Id
             peer_proxy/2,               % +Peer, -Proxy
             peer_signal/2,              % +Peer, +Signal
+            peer_pid/2,                 % ?Peer, -Pid
             peer_kill/1,                % +Peer
+            peer_ends/2,                % +Peer, -Status
             peer_crash/1,               % +Peer
             peer_host/2,                % +Peer, -Address
             peer_messages/2             % +Peer, -Lines
@@ -22,7 +24,7 @@ endpoint.
 */
 
 :- use_module(common, [ free_port/1, is_dead/1, project_file/2, python/1,
-                         stop_process/1, wait_until/2 ]).
+                         stop_process/1, wait_for_end/3, wait_until/2 ]).
 :- use_module(cutting_proxy, [proxy_start/3, proxy_stop/1]).
 :- use_module(frame_proxy, [frame_proxy_start/4, frame_proxy_stop/1]).
 :- use_module(relay, [relay_admit/1, relay_refuse/1]).
@@ -169,6 +171,16 @@ peer_kill(Peer) :-
     close(In, [force(true)]),
     close(Out, [force(true)]).
 
+%!  peer_ends(+Peer, -Status) is det.
+%
+%   Wait until Peer ends by itself.
+
+peer_ends(Peer, Status) :-
+    retract(peer(Peer, Pid, In, Out)),
+    wait_for_end(Pid, 60, Status),
+    close(In, [force(true)]),
+    close(Out, [force(true)]).
+
 %!  peer_signal(+Peer, +Signal) is det.
 %
 %   After `stop`, Peer is suspended when it returns.
@@ -179,6 +191,11 @@ peer_signal(Peer, Signal) :-
     ->  stop_process(Pid)
     ;   process_kill(Pid, Signal)
     ).
+
+%!  peer_pid(?Peer, -Pid) is nondet.
+
+peer_pid(Peer, Pid) :-
+    peer(Peer, Pid, _, _).
 
 %!  peer_proxy(+Peer, -Proxy) is det.
 

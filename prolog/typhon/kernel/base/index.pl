@@ -23,6 +23,7 @@ part_joins(Seam, What, Part) :-
 
 joins(carries,'options/trace',[step,trace]).
 joins(check_option,'options/guard',[policy]).
+joins(description,'options/fleet',[any]).
 joins(durable,'options/concurrency',[turns]).
 joins(durable,'options/directory',[offer]).
 joins(durable,'options/identity',[birth]).
@@ -32,6 +33,7 @@ joins(durable,'options/supervision',[monitor]).
 joins(environment,'options/tls',['TYPHON_TLS']).
 joins(fault,'language/faults',[report]).
 joins(fault,'tools/source_view',[location]).
+joins(fleet,'options/fleet',[joined]).
 joins(host_option,'options/access',[audit,peer]).
 joins(host_option,'options/cell',[cell]).
 joins(host_option,'options/concurrency',[concurrency]).
@@ -100,7 +102,7 @@ files('options/cell',['options/cell/cell_hosts','options/cell/gatekeeper']).
 files('options/concurrency',['options/concurrency']).
 files('options/directory',['options/directory/offers']).
 files('options/external_recipients',['options/external_recipients']).
-files('options/fleet',['options/fleet/fleet_journal','options/fleet/members','options/fleet/tags']).
+files('options/fleet',['options/fleet/drain','options/fleet/fleet_journal','options/fleet/members','options/fleet/registry','options/fleet/tags','options/fleet/takeover']).
 files('options/guard',['options/guard']).
 files('options/host_log',['options/host_log']).
 files('options/identity',['options/identity/authors','options/identity/birth','options/identity/sender_rights']).
@@ -164,6 +166,8 @@ part_setting(most,typhon_ros_advertisements,positive_integer,1000,'Topics and se
 part_setting(most,typhon_ros_requests,positive_integer,1000,'Requests of ROS that may wait for the answers of agents','bridges/ros/requests').
 part_setting(offers,typhon_offers,positive_integer,100,'Offers of an agent','options/directory/offers').
 part_setting(order_seconds,typhon_processes,number,60,'Seconds for a process to answer an order','network/nodes').
+part_setting(outcome_length,typhon_fleet,positive_integer,20000,'Characters of an outcome with its results; longer ones are kept without results','options/fleet/registry').
+part_setting(outcomes,typhon_fleet,positive_integer,20000,'Ends of agents that a fleet keeps for each home, and a process until its fleet has them','options/fleet/registry').
 part_setting(patience,typhon_event_sender,number,30,'Seconds that a disconnected watching process has to answer','options/watch/event_sender').
 part_setting(patience,typhon_virtual,number,10,'Virtual time that stands still for so long is reported','options/virtual').
 part_setting(pause,typhon_quota_enforcer,between(0.0,1.0),0.8,'Agents that run for long where there are quotas pause for this part of the time while others run','options/quotas/quota_enforcer').

@@ -1,5 +1,5 @@
 :- module(typhon_registry, []).
-:- use_module(library(lists), [append/2, member/2]).
+:- use_module(library(lists), [append/2, append/3, member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/agent',
               [agent_here/5, agent_home_endpoint/2, life_hops/2]).
@@ -147,6 +147,13 @@ typhon_join:known_end(Id, Outcome) :-
 typhon_join:known_results(Id, Results) :-
     end(Id, end(_, results(Results))).
 
+%   What ended here is known at once, and elsewhere with the next report.
+
 end(Id, End) :-
-    asked(ends, Id, Text),
+    (   ended(_, Id, Text)
+    ->  true
+    ;   told(_, Id, Text)
+    ->  true
+    ;   asked(ends, Id, Text)
+    ),
     term_string(End, Text).

@@ -6,6 +6,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
+:- use_module(library(socket), [tcp_bind/2, tcp_close_socket/1, tcp_socket/1]).
 :- use_module('../../kernel/host',
               [ address_parts/3, hosts_go_on/0, hosts_rest/0, process_ask/6,
                 runtime_acquire/2 ]).
@@ -13,7 +14,7 @@
 :- use_module('../journal', [hosts_back/1, hosts_journal/2]).
 :- use_module(engine, [engine/3, engine_key/3]).
 :- use_module(members,
-              [fleet_joined/2, fleet_member/4, fleet_tell/2, join_fleet/2]).
+              [fleet_joined/2, fleet_tell/2, join_fleet/2]).
 :- use_module(tags, [hosts_of_fleet/3]).
 
 /** <module> Processes that stand in for others, and those that were replaced
@@ -102,7 +103,7 @@ started(true, Fleet, Options, Endpoint, Journal) :-
     atomic_list_concat([Interface,_], :, Own),
     module_property(typhon_takeover, file(File)),
     file_directory_name(File, Directory),
-    directory_file_path(Directory, '../../../typhon', Platform),
+    directory_file_path(Directory, '../../../typhon.pl', Platform),
     current_prolog_flag(executable, Swipl),
     process_create(Swipl,
                    [ '-q', '-g', 'typhon_takeover:stand_in', '-t', 'halt(1)',
@@ -139,14 +140,21 @@ stand_in :-
     atomic_list_concat([Fleet,Journal], /, Path),
     join_fleet(Fleet, Options),
     hosts_journal(redis(Path), [wait(15)]),
-    runtime_acquire(stand_in, [bind(Interface), advertise(Endpoint), port(0)]),
-    typhon_connection:listens_at(Endpoint, At, Port),
-    atomic_list_concat([At,Port], :, Real),
-    assertz(standing(Endpoint, Real)),
-    hosts_back([]),
+    free_port(Interface, Port),
+    Runtime = [bind(Interface), advertise(Endpoint), port(Port)],
+    runtime_acquire(stand_in, Runtime),
+    atomic_list_concat([Interface,Port], :, At),
+    assertz(standing(Endpoint, At)),
+    hosts_back(Runtime),
     hosts_go_on,
     fleet_tell(Fleet, beat),
     thread_get_message(typhon_never).
+
+%   With port(0) it would be that of the journal, which the other process may hold.
+
+free_port(Interface, Port) :-
+    tcp_socket(Socket),
+    call_cleanup(tcp_bind(Socket, Interface:Port), tcp_close_socket(Socket)).
 
 typhon_members:stands_at(Endpoint, At) :-
     standing(Endpoint, At).

@@ -1,0 +1,220 @@
+:- module(test_takeover, []).
+
+% Processes of a fleet that are replaced, fenced or drained.
+
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/fixtures').
+:- use_module('../../../lib/peers').
+:- use_module('../../../lib/redis').
+:- use_module(library(debug), [assertion/1]).
+:- use_module(library(lists), [member/2, numlist/3]).
+:- use_module(library(plunit)).
+:- use_module(library(process), [process_kill/2]).
+:- use_module(library(typhon)).
+
+:- needs([fleet]).
+
+%   up(+Names): hosts with these names are up.
+
+up(Names) :-
+    wait_until(test_takeover:are_up(Names), 30).
+
+are_up(Names) :-
+    catch(fleet_hosts(lab, Hosts, [state(up)]), error(_, _), fail),
+    findall(Name, ( member(Host, Hosts), atomic_list_concat([Name|_], @, Host) ),
+            Names0),
+    sort(Names0, Names).
+
+%   traveller(+Host, -Id): born in the peer, on Host now; it ends after a message.
+
+traveller(Host, Id) :-
+    peer_agent(beta, [ (:- agent(traveller)),
+                       (main :- move(Host), receive(_-go), result(1), result(2)) ],
+               [], Id),
+    wait_until(test_takeover:found(Id, Host), 30).
+
+ended(Id, Outcome) :-
+    catch(agent_join(Id, Outcome, 30), error(_, _), fail).
+
+found(Id, Host) :-
+    catch(agent_where(Id, Host0), error(_, _), fail),
+    Host0 = Host.
+
+%   counting(+Redis, +Joins, :Goal): Goal in a member without a journal; peer
+%   `beta` has its journal in the engine, and an agent that counts messages.
+
+:- meta_predicate counting(+, +, -, 0).
+
+counting(Redis, Joins, Agent, Goal) :-
+    member_spec(Redis, beta, Joins, [journal(redis('lab/beta'))], Beta),
+    with_peers([Beta],
+               ( peer_agent(beta, [ (:- agent(counter)), (:- dynamic(n/1)),
+                                    (main :- receive(From-next), retract(n(N0)),
+                                             N is N0+1, assertz(n(N)),
+                                             send(From, count(N)), main) ],
+                            [n(0)], Agent),
+                 up([alpha,beta]),
+                 asked(Agent, 1),
+                 peer_host(beta, Host),
+                 call_cleanup(Goal, end_of_stand_in(Redis, Host)) )).
+
+%   Whatever process has the address of Host ends, if it is not the peer.
+
+end_of_stand_in(Redis, Host) :-
+    atomic_list_concat([_,Endpoint], @, Host),
+    atom_concat('f:{lab}:p:', Endpoint, Key),
+    redis_line(Redis, [hget, Key, pid], [Text]),
+    number_string(Pid, Text),
+    (   peer_pid(beta, Pid)
+    ->  true
+    ;   process_kill(Pid, term),
+        wait_until(is_dead(Pid), 30)
+    ).
+
+%   the counter says N next.
+
+asked(Counter, N) :-
+    create([ (main :- send(Counter, next), receive(_-count(N)), result(N)) ],
+           Asker, [host(alpha)]),
+    agent_join(Asker, Outcome, 60),
+    assertion(Outcome == done),
+    agent_result(Asker, Said, 10),
+    assertion(Said == N).
+
+stands_in(Agent) :-
+    up([alpha,beta]),
+    asked(Agent, 2),
+    asked(Agent, 3).
+
+gone :-
+    wait_until(test_takeover:are_up([alpha]), 30).
+
+:- begin_tests(drain).
+
+test(agents_go_to_hosts_of_the_first_tag, Where == [beta,beta,gamma,gamma]) :-
+    with_fleet([lease(2)], _, [alpha-[x,y], beta-[x], gamma-[x], delta-[y]],
+               ( findall(A, ( between(1, 4, _),
+                              create([(main :- receive(_-go))], A, [host(alpha)]) ),
+                         Agents),
+                 fleet_drain(alpha, []),
+                 findall(Name, ( member(A, Agents), agent_where(A, Host),
+                                 atomic_list_concat([Name|_], @, Host) ),
+                         Where0),
+                 msort(Where0, Where),
+                 up([beta,delta,gamma]) )).
+
+test(agents_go_where_the_option_says, Name == delta) :-
+    with_fleet([lease(2)], _, [alpha-[x,y], beta-[x], delta-[y]],
+               ( create([(main :- receive(_-go))], A, [host(alpha)]),
+                 fleet_drain(alpha, [to(y)]),
+                 agent_where(A, Host),
+                 atomic_list_concat([Name|_], @, Host) )).
+
+test(static_agents_stay_and_are_listed, Stay == [A]) :-
+    with_fleet([lease(2)], _, [alpha-[x], beta-[x]],
+               ( create([(main :- receive(_-go))], A, [host(alpha), static(true)]),
+                 create([(main :- receive(_-go))], _, [host(alpha)]),
+                 fleet_drain(alpha, [stay(Stay)]),
+                 up([beta]) )).
+
+test(warning_lists_what_stays) :-
+    with_fleet([lease(2)], _, [alpha-[x], beta-[x]],
+               ( create([(main :- receive(_-go))], A, [host(alpha), static(true)]),
+                 capturing(fleet_drain(alpha, []), _),
+                 assertion(was_printed(warning,
+                                       typhon(fleet_drained(alpha, [A])))) )).
+
+test(host_with_no_other_is_not_drained,
+     throws(error(resource_error(hosts(x)), _))) :-
+    with_fleet([lease(2)], _, [alpha-[x], beta-[y]],
+               call_cleanup(fleet_drain(alpha, []), up([alpha,beta]))).
+
+test(nothing_chooses_a_drained_host,
+     throws(error(resource_error(hosts(x)), _))) :-
+    with_fleet([lease(2)], _, [alpha-[x], beta-[y]],
+               ( fleet_drain(alpha, [to(y)]),
+                 create([(main :- true)], _, [host(any(x))]) )).
+
+wrong(fleet_drain(nowhere, []), existence_error(host, nowhere)).
+wrong(fleet_drain(beta, []), existence_error(fleet_of_host, beta)).
+wrong(fleet_drain(alpha, [too(x)]), domain_error(drain_option, too(x))).
+
+test(wrong, [forall(wrong(Goal, Formal)), throws(error(Formal, _))]) :-
+    with_fleet([], _, [alpha-[x]],
+               setup_call_cleanup(host_start(beta), Goal, host_stop(beta))).
+
+:- end_tests(drain).
+
+:- begin_tests(registry).
+
+test(agent_is_found_without_its_home, Host == Alpha) :-
+    with_fleet([lease(2), report(0.2)], Redis, [alpha-[]],
+               ( member_spec(Redis, beta, [lease(2)], [], Beta),
+                 address(alpha, Alpha),
+                 with_peers([Beta],
+                            ( traveller(Alpha, Agent),
+                              peer_kill(beta),
+                              agent_where(Agent, Host) )) )).
+
+test(outcome_and_results_outlive_the_home, Outcome-Result == done-2) :-
+    with_fleet([lease(2), report(0.2)], Redis, [alpha-[]],
+               ( member_spec(Redis, beta, [lease(2)], [], Beta),
+                 address(alpha, Alpha),
+                 with_peers([Beta],
+                            ( traveller(Alpha, Agent),
+                              peer_kill(beta),
+                              agent_send(Agent, go),
+                              agent_join(Agent, Outcome, 30),
+                              agent_result(Agent, Result, 30) )) )).
+
+test(engine_that_lost_all_knows_agents_and_ends_again, Host-Outcome == Alpha-done) :-
+    with_fleet([lease(2), report(0.2)], Redis, [alpha-[]],
+               ( member_spec(Redis, beta, [lease(2)], [], Beta),
+                 address(alpha, Alpha),
+                 with_peers([Beta],
+                            ( traveller(Alpha, Agent),
+                              traveller(Alpha, Other),
+                              peer_kill(beta),
+                              agent_send(Other, go),
+                              agent_join(Other, done, 30),
+                              redis_empty(Redis),
+                              wait_until(test_takeover:found(Agent, Host), 30),
+                              wait_until(test_takeover:ended(Other, Outcome),
+                                         30) )) )).
+
+test(agent_that_no_fleet_knows,
+     throws(error(existence_error(agent, 'no.1@x@127.0.0.1:1'), _))) :-
+    with_fleet([], _, [alpha-[]], agent_where('no.1@x@127.0.0.1:1', _)).
+
+:- end_tests(registry).
+
+:- begin_tests(takeover).
+
+test(killed_process_goes_on_in_a_stand_in) :-
+    with_fleet([lease(2), recover(true)], Redis, [alpha-[]],
+               counting(Redis, [lease(2)], Agent,
+                        ( peer_kill(beta), gone, stands_in(Agent) ))).
+
+%   one that was suspended meanwhile sends nothing more, and ends with status 75.
+
+test(suspended_process_is_fenced) :-
+    with_fleet([lease(2), recover(true)], Redis, [alpha-[]],
+               counting(Redis, [lease(2)], Agent,
+                        ( peer_signal(beta, stop),
+                          gone,
+                          stands_in(Agent),
+                          peer_signal(beta, cont),
+                          peer_ends(beta, Status),
+                          assertion(Status == exit(75)),
+                          asked(Agent, 4) ))).
+
+test(process_that_comes_back_in_time_keeps_its_journal) :-
+    with_fleet([lease(4), recover(true)], Redis, [alpha-[]],
+               counting(Redis, [lease(4)], Agent,
+                        ( peer_signal(beta, stop),
+                          wait_until(test_takeover:are_up([alpha]), 30),
+                          peer_signal(beta, cont),
+                          up([alpha,beta]),
+                          asked(Agent, 2) ))).
+
+:- end_tests(takeover).
