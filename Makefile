@@ -90,6 +90,9 @@ chaos: tools            ## attack networks, and journals; SECONDS=600, SEED=1
 	@$(SWIPL) test/chaos/run.pl -- --seconds $(SECONDS) --seed $(SEED)
 	@$(SWIPL) test/chaos/lasting/run.pl -- --seconds $(SECONDS) \
 	    --seed $(SEED)
+	@$(SWIPL) test/chaos/lasting/run.pl -- --fleet --power 0 --seed $(SEED) \
+	    --faults '[kill,kill_all,stop,cut,engine_kill,engine_stop,usurp]' \
+	    --seconds $(SECONDS)
 	@$(SWIPL) -g supervised_main test/chaos/supervised.pl -- \
 	    --seconds=$(SECONDS) --seed=$(SEED)
 

@@ -47,8 +47,8 @@ agent_survives(Backend) :-
 
 %!  agent_goes_on(+Backend, :Goes, :Returns) is semidet.
 %
-%   An agent that hops makes all its hops, once, although the server that has the
-%   journal Goes, and Returns.
+%   An agent that hops makes all its hops, once, although the server that has
+%   the journal Goes, and Returns.
 
 agent_goes_on(Backend, Goes, Returns) :-
     free_port(Port),

@@ -27,8 +27,8 @@ agent arrive in order.
 %   Options: dir(Dir), processes(N), agents(N), hops(N) of each, seed(Seed),
 %   crash(P) at each step, power(P) for a power failure at a commit, for
 %   sync(full) only, kill(Seconds) between faults from outside, most(N) faults,
-%   sync(How), seconds(Limit), fleet(true) for journals in the engine of a fleet.
-%   Report is report(Facts, Wrong).
+%   sync(How), seconds(Limit), fleet(true) for journals in the engine of a
+%   fleet.  Report is report(Facts, Wrong).
 
 lasting(Options, report(Facts, Wrong)) :-
     option(seed(Seed), Options, 1),

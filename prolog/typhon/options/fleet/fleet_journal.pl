@@ -27,12 +27,12 @@ empty engine waits one lease for it.
 
 Keys, for each Name:
 
-  | i:Name         | hash   | `Kind N Key` -> sum and bytes; `about`: the format |
-  | j:Name:owner   | string | number and token of the process that has it        |
-  | j:Name:lease   | string | lapses unless the owner renews it                  |
-  | j:Name:number  | number | of the last commit                                 |
-  | j:Name:parts   | hash   | items of a commit, or a copy, that is not complete |
-  | j:Name:record  | string | of the network                                     |
+  | i:Name        | hash   | `Kind N Key` -> sum, bytes; `about`: the format |
+  | j:Name:owner  | string | number and token of the process that has it     |
+  | j:Name:lease  | string | lapses unless the owner renews it               |
+  | j:Name:number | number | of the last commit                              |
+  | j:Name:parts  | hash   | items of a commit, or copy, that is incomplete  |
+  | j:Name:record | string | of the network                                  |
 
 *Threading*: one thread at a time.  After the start a thread of the journal
 makes all calls, as a commit must not wait with a deadline inside sig_atomic/1.
@@ -227,8 +227,8 @@ field(Kind, Key, N, Field) :-
     atom_string(Key, Key0).
 
 %   With appendfsync everysec an engine that dies may forget that this process
-%   has taken the journal over.  Nothing is committed, and so nothing sent, before
-%   that is on its disk; the first commit then compares the owner once more.
+%   has taken the journal over.  Nothing is committed, and so nothing sent,
+%   before that is on its disk; the first commit compares the owner once more.
 
 settle(Taken, Fleet) :-
     (   Taken =:= 1,
@@ -266,8 +266,7 @@ ends(Journal) :-
 give_back(Journal) :-
     catch(script(journal_renew, Journal, [0], _), error(_, _), true).
 
-%   The process is known to the engine by its owner's number and token; beats
-%   of a member renew the lease.
+%   Beats of a member renew the lease.
 
 typhon_members:journal(Fleet, Name, Owner) :-
     owned(journal(Fleet, Name, Owner, _), _, _).
@@ -459,11 +458,8 @@ typhon_store:backend_item(redis(_, _), Kind, Order, Key, N, Bytes, Sum) :-
     item(Kind, Key, N, Value),
     sub_string(Value, 0, 6, _, Shown),
     sub_string(Value, 6, _, 0, Bytes),
-    ( catch(atom_to_sum(Shown, Sum), error(_, _), fail) -> true ; Sum = none ).
-
-atom_to_sum(Shown, Sum) :-
     string_concat("0x", Shown, Hex),
-    number_string(Sum, Hex).
+    ( number_string(Sum, Hex) -> true ; Sum = none ).
 
                 /*******************************
                 *            MESSAGES          *

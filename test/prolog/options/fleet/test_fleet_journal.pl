@@ -4,8 +4,7 @@
 :- use_module('../../../lib/stores').
 :- use_module('../../../lib/texts', [message_text/2]).
 :- use_module(library(plunit)).
-:- use_module(library(apply), [maplist/3]).
-:- use_module(library(filesex), [directory_file_path/3, directory_member/3]).
+:- use_module(library(filesex), [directory_member/3]).
 :- use_module(library(lists), [last/2, member/2, numlist/3]).
 :- use_module(library(process), [process_kill/2, process_wait/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
