@@ -1,4 +1,5 @@
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/failing_disk').
 :- use_module('../../../lib/journaled').
 :- use_module('../../../lib/redis').
 :- use_module('../../../lib/stores').
@@ -108,6 +109,25 @@ test(commit_without_space_is_repeated) :-
                  commit([a-l-0-y]),
                  items(a, Items) ))),
     msort(Items, [k-0-x, l-0-y]).
+
+%   Redis takes no commands that write while it cannot write its file.
+
+test(engine_with_a_full_disk_takes_commits_when_there_is_space,
+     [condition(disk_can_fail), true(Items == [k-0-x, l-0-y])]) :-
+    with_failing_disk(Environment,
+        ( forall(member(Name=Value, Environment), setenv(Name, Value)),
+          in_lab(['--appendfsync', everysec], _, full_disk(Items)) )).
+
+full_disk(Items) :-
+    unsetenv('LD_PRELOAD'),
+    with_journal(( commit([a-k-0-w]),
+                   disk_fails(write-28),
+                   wait_until(error_of(commit([a-k-0-x]),
+                                       resource_error(journal_space)), 10),
+                   disk_heals,
+                   wait_until(error_of(commit([a-l-0-y]), none), 10) )),
+    with_journal(items(a, Items0)),
+    msort(Items0, Items).
 
 %   An item of four calls, and many items.
 
