@@ -6,26 +6,23 @@
             child_kill/1,               % +Child
             child_release/1             % +Child
           ]).
-:- use_module(library(apply), [maplist/3]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(error), [must_be/2, type_error/2]).
-:- use_module(library(lists), [last/2]).
-:- use_module(library(option), [option/3]).
+:- use_module(library(lists), [append/3]).
 :- use_module(library(process), [process_kill/2, process_wait/2]).
 :- autoload(library(readutil), [read_line_to_string/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../kernel/base/options', [check_options/2]).
 :- use_module('../kernel/base/prolog_faults', [installed_swipl/2, spawn/3]).
-:- use_module('../kernel/base/text', [shell_word/2]).
 :- use_module('../kernel/wire', [cookie/1, random_hex/2]).
 :- use_module('../options/keys', [own_keys/1]).
 :- use_module(child_output, [output_line/2]).
+:- use_module(machines, [machine_command/5, machine_kill/3, machine_node/3]).
 
 /** <module> Child processes that run the hosts of a network
 
-A child runs node_process.pl, on this machine or through ssh on another. It
+A child runs node_process.pl, on this machine or another, see module
+`machines`. It
 reads its parameters from one line of its standard input. The cookie is one of
-them, so that no argument list and no environment of ssh shows it. The child
+them, so that no argument list and no environment shows it. The child
 prints the address of its endpoint in one line on its standard output. This
 process prints the later output of the child, see module `child_output`. A child
 that cannot start prints the reason in such a line, and ends.
@@ -49,10 +46,8 @@ cannot start, and with down(Tag, Status) when it has ended. The thread is no
     stop_reading/0.             % goal of a signal
 
 :- multifile
-    prolog:message//1,
-    typhon_options:declared/4.
+    prolog:message//1.
 
-:- setting(ssh, atom, ssh, "The program that reaches other machines").
 :- setting(stop_seconds, number, 5,
            "Seconds for a child to end in order before it is killed").
 
@@ -68,25 +63,27 @@ cannot start, and with down(Tag, Status) when it has ended. The thread is no
 
 %!  child_start(+Tag, +Machine, +At, +Options, :OnEvent, -Child) is det.
 %
-%   Start a child. Machine is `local`, a target of ssh, or machine(Target,
-%   Options) with the options
+%   Start a child on Machine, see module `machines`. For a target of ssh, or
+%   machine(Target, Options), the options are
 %
 %     - swipl(Program): default `swipl`
 %     - node(File): path of node_process.pl on that machine, default as here
 %     - bind(Interface): interface at which the child listens, default the host
 %       of Target
 %     - advertise(Address): default Interface, as of host_start/2
+%     - more(Args): options of ssh
 %
-%   A local child listens as At, at(Interface, Advertised), says. Options are for the child: port(Port),
-%   at which it listens, journal(Directory, How), see doc/journal.md, on its
-%   machine, and hosts(Options), which override the options of hosts in the
-%   journal.
+%   A local child listens as At, at(Interface, Advertised), says. Options are for
+%   the child: port(Port), at which it listens, journal(Directory, How), see
+%   doc/journal.md, on its machine, and hosts(Options), which override the options
+%   of hosts in the journal.
 %
-%   @error type_error(machine, Machine), and errors of process_create/3
+%   @error errors of machine_node/3, and of process_create/3
 
 child_start(Tag, Machine, At0, Options, OnEvent,
             child(Pid, In, Thread)) :-
-    command(Machine, At0, Program, Args, At),
+    machine_node(Machine, At0, At),
+    command(Machine, Program, Args),
     cookie(Cookie),
     keys(Keys),
     setting(stop_seconds, Seconds),
@@ -95,7 +92,8 @@ child_start(Tag, Machine, At0, Options, OnEvent,
             detached(true)
           ]),
     follower_alias(Tag, Alias),
-    thread_create(follow(Tag, Pid, Out, OnEvent), Thread, [alias(Alias)]),
+    thread_create(follow(Tag, Machine, Pid, Out, OnEvent), Thread,
+                  [alias(Alias)]),
     debug(typhon(network), 'process ~w of ~w is started: ~w, ~p',
           [Pid, Tag, Program, Args]),
     child_secret(Secret),
@@ -138,34 +136,14 @@ send_term(In, Term) :-
                  module(system), fullstop(true), nl(true) ]),
     flush_output(In).
 
-command(local, At, Swipl, Args, At) :-
-    !,
-    swipl(Swipl),
+command(Machine, Program, Args) :-
     node_file(File),
-    node_args(File, Args).
-command(Machine, _, Program, [Target|Command], at(Bind, Advertised)) :-
-    (   atom(Machine)
-    ->  Target = Machine,
-        Options = []
-    ;   Machine = machine(Target, Options)
-    ->  must_be(atom, Target),
-        check_options(machine_option, Options)
-    ;   type_error(machine, Machine)
-    ),
-    setting(ssh, Ssh),
-    (   is_absolute_file_name(Ssh)
-    ->  Program = Ssh
-    ;   Program = path(Ssh)
-    ),
-    target_host(Target, Host),
-    node_file(Here),
-    option(bind(Bind), Options, Host),
-    option(advertise(Advertised), Options, none),
-    option(swipl(Swipl), Options, swipl),
-    option(node(File0), Options, Here),
-    named_now(File0, File),
-    node_args(File, Args),
-    maplist(shell_word, [Swipl|Args], Command). % for the shell there
+    Flags = ['-q', '-f', none, '-g', node_main, '-t', 'halt(1)'],
+    (   Machine == local
+    ->  swipl(Program),
+        append(Flags, [File], Args)
+    ;   machine_command(Machine, Flags, File, Program, Args)
+    ).
 
 %   swipl(-Program): Program is not a stand-alone saved state. That would run
 %   its own goal, which starts processes, and so on without end.
@@ -179,31 +157,13 @@ swipl(Swipl) :-
     ;   Swipl = Executable
     ).
 
-%   Options may name node_process.pl by its old name, carrier.pl.
-
-named_now(File0, File) :-
-    (   atom_concat(Dir, '/carrier.pl', File0)
-    ->  atom_concat(Dir, '/node_process.pl', File)
-    ;   File = File0
-    ).
-
-typhon_options:declared(machine_option, bind(X), atom, X).
-typhon_options:declared(machine_option, advertise(X), atom, X).
-typhon_options:declared(machine_option, swipl(X), atom, X).
-typhon_options:declared(machine_option, node(X), atom, X).
-
-node_args(File, ['-q', '-f', none, '-g', node_main, '-t', 'halt(1)', File]).
-
-target_host(Target, Host) :-
-    atomic_list_concat(Parts, @, Target),
-    last(Parts, Host).
-
                 /*******************************
                 *          FOLLOWING           *
                 *******************************/
 
-follow(Tag, Pid, Out, OnEvent) :-
+follow(Tag, Machine, Pid, Out, OnEvent) :-
     set_stream(Out, encoding(utf8)),
+    nb_setval(typhon_there, none),
     catch(( nb_setval(typhon_reading, true),
             lines(Tag, Out, OnEvent),
             nb_setval(typhon_reading, false) ),
@@ -211,6 +171,8 @@ follow(Tag, Pid, Out, OnEvent) :-
           true),
     close(Out),
     process_wait(Pid, Status),
+    nb_getval(typhon_there, There),
+    machine_kill(Machine, Status, There),
     call(OnEvent, down(Tag, Status)).
 
 lines(Tag, Out, OnEvent) :-
@@ -225,6 +187,7 @@ line(Line, Tag, OnEvent) :-
     (   split_string(Line, " ", "", ["typhon_node_process", Endpoint0, Pid0])
     ->  atom_string(Endpoint, Endpoint0),
         number_string(Pid, Pid0),
+        nb_setval(typhon_there, Pid),
         call(OnEvent, up(Tag, Endpoint, Pid))
     ;   string_concat("typhon_node_process_error ", Text, Line),
         catch(term_string(Error, Text), error(_, _), fail)

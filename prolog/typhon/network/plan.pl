@@ -31,6 +31,7 @@
               [chance_hash/2, chance_seed/2, chance_uniform/5]).
 :- use_module(host_setup,
               [host_setup_check/2, host_setup_files/3, host_setup_goals/3]).
+:- use_module(machines, [machine_checked/1]).
 :- use_module(topology,
               [topology_costs/2, topology_edges/4, topology_names/2]).
 
@@ -55,6 +56,7 @@ network_plan(Topology, Options0, plan(Names, Edges, Costs, Options)) :-
     check_options(network_option, Options0),
     maplist(check_option, Options0),
     check_journal(Options0),
+    check_machines(Options0),
     check_virtual(Options0),
     seeded(Options0, Seed, Options),
     topology_edges(Topology, Seed, _, Edges),
@@ -76,6 +78,7 @@ typhon_options:declared(network_option, Option, Type, Value) :-
 
 option_type(processes(P), positive_integer, P).
 option_type(machines(Machines), list, Machines).
+option_type(start(How), nonvar, How).
 option_type(bind(Interface), atom, Interface).
 option_type(advertise(Address), atom, Address).
 option_type(tls(Directory), atom, Directory).
@@ -100,6 +103,8 @@ check_option(hosts(Options)) =>
 check_option(advertise(Address)), sub_atom(Address, _, _, _, :) =>
     throw(error(domain_error(advertised_address, Address),
                 context(_, 'without a port: each process has its own'))).
+check_option(start(How)) =>
+    check_start(How).
 check_option(log(_, Kinds)) =>
     must_be(list(event_kind), Kinds).
 check_option(hop_time(Time)) =>
@@ -112,6 +117,17 @@ check_option(dynamic(Model)) =>
     dynamics_model(Model, _).
 check_option(_) =>
     true.
+
+check_start(local) =>
+    true.
+check_start(ssh([Machine|Machines])) =>
+    maplist(machine_checked, [Machine|Machines]).
+check_start(slurm(Options)) =>
+    check_options(slurm_option, Options).
+check_start(How) =>
+    throw(error(domain_error(start, How),
+                context(_, 'write start(local), start(ssh([\'user@machine\'])) \c
+                            or start(slurm([nodes(2)]))'))).
 
 check_hop_time(Time) :-
     (   interval(Time)
@@ -161,6 +177,13 @@ check_journal(Options) :-
     misplaced(sync(How), 'there is no journal(Directory)').
 check_journal(_).
 
+check_machines(Options) :-
+    memberchk(start(How), Options),
+    memberchk(machines(_), Options),
+    !,
+    misplaced(start(How), 'machines(_) names the machines already').
+check_machines(_).
+
 misplaced(Option, Why) :-
     throw(error(permission_error(set, network_option, Option),
                 context(_, Why))).
@@ -185,6 +208,8 @@ check_virtual(Options) :-
 elsewhere(processes(P)) :-
     P > 1.
 elsewhere(machines([_|_])).
+elsewhere(start(How)) :-
+    How \== local.
 
 seeded(Options, Seed, Options) :-
     option(seed(Seed), Options),
@@ -219,17 +244,27 @@ plan_log(Plan, File, []) :-
 
 %!  plan_processes(+Plan, -P, -Machines) is det.
 %
-%   P processes run the network; each of Machines runs a block of them.
+%   P processes run the network; each of Machines, a list or slurm(Options), runs
+%   a block of them.
 
 plan_processes(plan(Names, _, _, Options), P, Machines) :-
-    (   option(machines([Machine|Rest]), Options)
-    ->  Machines = [Machine|Rest]
-    ;   Machines = [local]
-    ),
-    length(Machines, M),
+    machines(Options, Machines, M),
     length(Names, N),
     option(processes(P0), Options, M),
     P is min(P0, N).
+
+machines(Options, slurm(Own), N) :-
+    option(start(slurm(Own)), Options),
+    !,
+    option(nodes(N), Own, 1).
+machines(Options, Machines, M) :-
+    (   option(machines([Machine|Rest]), Options)
+    ->  Machines = [Machine|Rest]
+    ;   option(start(ssh(Targets)), Options)
+    ->  findall(ssh(Target), member(Target, Targets), Machines)
+    ;   Machines = [local]
+    ),
+    length(Machines, M).
 
 %!  plan_hosts(+Plan, +P, +Common, -Hosts) is det.
 %

@@ -12,6 +12,7 @@
 :- use_module('../kernel/travel', [home_agents_at/2]).
 :- use_module(children,
               [child_close/1, child_kill/1, child_release/1, child_start/6]).
+:- use_module(machines, [machine_error/3]).
 :- use_module(nodes,
               [ node/3, node/4, node_again/2, node_came/4,
                 node_gone/2, node_order/4, node_went/3, nodes_ask/6,
@@ -19,6 +20,7 @@
 :- use_module(restarts,
               [ restarts_absent/2, restarts_begin/3, restarts_end/1,
                 restarts_notify/3 ]).
+:- autoload(slurm, [slurm_nodes/3, slurm_release/1]).
 :- use_module(wiring, [wired_host/3]).
 
 /** <module> Starting and stopping the processes of a network
@@ -65,7 +67,8 @@ most_named(10).
 
 %!  nodes_start(+Network, +P, +Machines, +At, :Options) is det.
 %
-%   Start P processes; each of Machines runs a block of them. With `[local]` and
+%   Start P processes; each of Machines, or of the nodes of slurm(Options), runs a
+%   block of them. With `[local]` and
 %   P = 1 the hosts run in this process. call(Options, I, List) returns the
 %   options of child_start/6 for process I. After an exception nodes_stop/1
 %   stops the processes that were started.
@@ -78,9 +81,10 @@ nodes_start(Network, 1, [local], _, _) :-
     !,
     current_prolog_flag(pid, Pid),
     node_came(Network, 1, local, Pid).
-nodes_start(Network, P, Machines, At, Options) :-
+nodes_start(Network, P, Machines0, At, Options) :-
     message_queue_create(Queue),
     assertz(queue(Network, Queue)),
+    machines(Machines0, Network, Machines),
     length(Machines, M),
     forall(between(1, P, I),
            ( Nth is (I - 1) * M // P + 1,
@@ -99,6 +103,11 @@ nodes_start(Network, P, Machines, At, Options) :-
         )),
     assertz(wanted(Network)).
 
+machines(slurm(Options), Network, Machines) :-
+    !,
+    slurm_nodes(Network, Options, Machines).
+machines(Machines, _, Machines).
+
 %   Networks are often started in the setup of a cleanup, where a wait with a
 %   deadline may hang, see typhon_own_thread.  So another thread waits and sends
 %   `late`.
@@ -107,7 +116,8 @@ alarm(Seconds, Queue) :-
     thread_self(Me),
     (   wait_within(Seconds, thread_get_message(Me, done))
     ->  true
-    ;   thread_send_message(Queue, late)
+    ;   thread_send_message(Queue, late),
+        thread_get_message(done)        % the queue of a thread ends with it
     ).
 
 note_lasting(Network, Options) :-
@@ -119,8 +129,10 @@ note_lasting(Network, Options) :-
 
 start(Network, P, Options) :-
     start(Network, P, Machine, At),
-    child_start(Network-P, Machine, At, Options,
-                typhon_processes:event, Child),
+    catch(child_start(Network-P, Machine, At, Options,
+                      typhon_processes:event, Child),
+          error(Formal, Context),
+          not_started(Network, P, error(Formal, Context))),
     assertz(child(Network, P, Child)).
 
 event(up(Network-P, Endpoint, Pid)) :-
@@ -159,12 +171,20 @@ wait_up(P, Network, Queue) :-
     (   Event = up(_)
     ->  P1 is P - 1,
         wait_up(P1, Network, Queue)
-    ;   Event = failed(_, Error)
-    ->  throw(Error)
-    ;   Event = down(_, Status)
-    ->  throw(error(system_error(process_ended(Status)), _))
-    ;   throw(error(timeout_error(start, Network), _))
+    ;   failed_start(Event, Network, I, Error),
+        not_started(Network, I, Error)
     ).
+
+failed_start(failed(I, Error), _, I, Error).
+failed_start(down(I, Status), _, I,
+             error(system_error(process_ended(Status)), _)).
+failed_start(late, Network, I, error(timeout_error(start, Network), _)) :-
+    once(( start(Network, I, _, _), \+ node(Network, I, _) )).
+
+not_started(Network, I, Error0) :-
+    start(Network, I, Machine, _),
+    machine_error(Machine, Error0, Error),
+    throw(Error).
 
                 /*******************************
                 *         STARTING AGAIN       *
@@ -260,7 +280,8 @@ nodes_stop(Network) :-
     retractall(start(Network, _, _, _)),
     expect_no_more(Network, _),
     retractall(at(Network, _, _)),
-    nodes_forget(Network).
+    nodes_forget(Network),
+    slurm_release(Network).
 
 %   An agent on its way to a dead process, or in a long goal, does not come to
 %   rest. A journal keeps its last recorded state.

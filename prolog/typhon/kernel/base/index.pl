@@ -51,7 +51,7 @@ joins(keys,'options/identity',[any]).
 joins(keys,'options/trail',[any]).
 joins(link_option,'tools/administration',[cost]).
 joins(load_option,'tools/administration',[host]).
-joins(machine_option,network,[advertise,bind,node,swipl]).
+joins(machine_option,network,[advertise,bind,more,node,swipl]).
 joins(network_load_option,network,[log]).
 joins(order,'options/identity',[attach]).
 joins(order,'options/trace',[watched]).
@@ -78,6 +78,7 @@ joins(requested,'options/watch',[everywhere,watch,watched]).
 joins(requested,tools,[close_up,survey]).
 joins(requested,'tools/administration',[hosting]).
 joins(ros_call_option,'bridges/ros',[deadline]).
+joins(slurm_option,network,[more,node,nodes,partition,swipl,time]).
 joins(spied,'options/trace',[program]).
 joins(time,'options/single',[single]).
 joins(time,'options/virtual',[virtual]).
@@ -96,7 +97,7 @@ files('bridges/ros',['bridges/ros/events','bridges/ros/requests','bridges/ros/se
 files(language,['language/programs','language/source']).
 files('language/chunks',['language/chunks/chunk_compiler']).
 files('language/faults',['language/faults']).
-files(network,['network/changes','network/children','network/dynamics','network/loading','network/log','network/networks','network/node_process','network/plan','network/topology','network/wiring']).
+files(network,['network/changes','network/dynamics','network/loading','network/log','network/machines','network/networks','network/node_process','network/plan','network/slurm','network/topology','network/wiring']).
 files('options/access',['options/access']).
 files('options/cell',['options/cell/cell_hosts','options/cell/gatekeeper']).
 files('options/concurrency',['options/concurrency']).
@@ -183,7 +184,7 @@ part_setting(restart_seconds,typhon_restarts,number,60,'Seconds within which the
 part_setting(restarts,typhon_restarts,nonneg,10,'Restarts of a process within restart_seconds','network/restarts').
 part_setting(seconds,typhon_inventory,number,2,'Seconds for which a table waits for other processes of a network','tools/inventory').
 part_setting(silent_seconds,typhon_postgresql,positive_integer,10,'Seconds without data after which the machine of a database server is taken to be gone','options/journal/postgresql').
-part_setting(ssh,typhon_children,atom,ssh,'The program that reaches other machines','network/children').
+part_setting(ssh,typhon_children,atom,ssh,'The program that reaches other machines','network/machines').
 part_setting(start,typhon_cells,number,120,'Seconds in which a cell has to load its program','options/cell/cell_process').
 part_setting(start_seconds,typhon_processes,number,60,'Seconds for the processes of a network to start','network/processes').
 part_setting(stop_seconds,typhon_children,number,5,'Seconds for a child to end in order before it is killed','network/children').
