@@ -108,7 +108,7 @@ part(studies,                           % mechanisms, experiments, applications
        'test/doc/test_fidelity.pl', 'test/project/test_locale.pl',
        'test/prolog/network/test_saving.pl',
        'test/prolog/tools/test_mistyped.pl', 'test/lib/algorithms_bench.pl',
-       'test/lib/clusters.pl', 'test/lib/event_log.pl',
+       'test/lib/event_log.pl',
        'test/lib/fake_node.pl', 'test/lib/project_studies.pl',
        'test/lib/robot_logs.pl', 'test/lib/study_files.pl',
        'test/lib/toy_study.pl' ]).

@@ -2,7 +2,7 @@
           [ slurm_nodes/3,              % +Network, +Options, -Machines
             slurm_release/1             % +Network
           ]).
-:- use_module(library(lists), [append/2, last/2, member/2, nth0/3]).
+:- use_module(library(lists), [append/2, member/2, nth0/3]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(process),
               [process_kill/2, process_wait/2, process_wait/3]).
@@ -83,9 +83,8 @@ refused(Network, Options, Err) :-
 why(exit(127), _, 'install the commands of Slurm here: there is no salloc') :-
     !.
 why(_, Text, Why) :-
-    split_string(Text, "\n", "\n", Lines),
-    last(Lines, Line),
-    ( string_concat("salloc: error: ", Said, Line) -> true ; Said = Line ),
+    split_string(Text, "\n", "\n", [First|_]),
+    ( string_concat("salloc: error: ", Said, First) -> true ; Said = First ),
     format(string(Why), 'Slurm: ~w; see sinfo and squeue, more time is the \c
                          setting typhon_processes:start_seconds', [Said]).
 
