@@ -154,6 +154,8 @@ option(network, events, atom, 'A,B',
        'with --log: also hops, messages, messages(content), facts').
 option(network, machines, atom, 'A,B',
        'ssh targets to start the processes on').
+option(network, start, term, 'HOW',
+       'where the processes run: local, ssh([''user@machine'']), slurm([nodes(4)])').
 option(network, dynamic, term, 'MODEL',
        'model of the changes of links').
 option(network, hop_time, term, 'uniform(A,B)',

@@ -36,10 +36,13 @@ interface of the layer; its modules are loaded when they are first used.
 %     - processes(P): default 1: the hosts are in this process.  Otherwise they
 %       are in so many child processes, in blocks of consecutive hosts, at most
 %       one process for each host
-%     - machines(Machines): start the children through ssh on Machines in turn,
-%       in blocks as well, by default one on each.  A machine is a target of
-%       ssh, or a term of child_start/6.  bind(Interface) must name an interface
-%       that they can reach
+%     - start(How): where the children run: `local`; ssh(Machines), in blocks as
+%       well, by default one on each, where a machine is a target of ssh or a term
+%       of child_start/6; or slurm(Options) on the nodes of an allocation, by
+%       default one on each, with options nodes(N) (default 1), partition(P),
+%       time(T) as salloc takes it, more(Args) for salloc, swipl(Program) and
+%       node(File).  bind(Interface) must name an interface that they can reach
+%     - machines(Machines): as start(ssh(Machines)), and a machine may be `local`
 %     - bind(Interface): of the endpoints on this machine; default `localhost`
 %     - advertise(Address): of the endpoints on this machine, as of host_start/2,
 %       but without a port
@@ -76,7 +79,8 @@ interface of the layer; its modules are loaded when they are first used.
 %
 %   @error uninstantiation_error(Network)
 %   @error domain_error(network_option, Option), domain_error(topology, T),
-%   timeout_error(start, Network), system_error(process_ended(Status)),
+%   domain_error(start, How), timeout_error(start, Network),
+%   system_error(process_ended(Status)), resource_error(nodes(N)) of Slurm,
 %   and the errors of host_start/2; journal_of_another(Directory, Was, Is) if
 %   the journal is that of another network
 
