@@ -15,6 +15,7 @@ stopped waits for a message, which the handlers of signals send.
 */
 
 :- use_module('../prolog/typhon').
+:- use_module('../prolog/typhon/kernel/base/error_text', [print_error/2]).
 :- use_module('../prolog/typhon/kernel/base/text', [format_shown/2]).
 :- use_module('../prolog/typhon/tools/tables',
               [print_agents/2, print_hosts/1, print_tree/1]).
@@ -31,7 +32,8 @@ stopped waits for a message, which the handlers of signals send.
 :- use_module(typhon/orders,
               [agent_argument/3, host_now/2, order/3, program_argument/2]).
 :- use_module(typhon/picture, [picture/3]).
-:- use_module(typhon/serving, [and_then/2, run_until_stopped/3]).
+:- use_module(typhon/serving,
+              [and_then/2, run_until_stopped/3, run_until_stopped/4]).
 :- use_module(typhon/story, [story/2]).
 :- use_module(typhon/usage, [complain/2]).
 :- autoload('typhon/bridges/diagnose', [diagnose_bridge/2]).
@@ -258,16 +260,18 @@ command_help :-
                 *******************************/
 
 run(host, [Name], Options) :-
-    options_for(host, Options, HostOptions),
+    options_for(host(Name), Options, HostOptions),
+    option(stop_seconds(Seconds), Options, 60),
     run_until_stopped(
-        host_start(Name, HostOptions),
+        ( joined(Options), host_start(Name, HostOptions) ),
         ( host_property(Name, address(Address)),
           forall(member(link(Other), Options), link(Name, Other)),
           forall(option(mqtt(Broker), Options),
                  mqtt_start(Name, Broker, [wait(false)])),
           print_line(Address)
         ),
-        host_stop(Name)).
+        ( drained(Name, Options), host_stop(Name) ),
+        Seconds).
 run(network, [Topology0], Options) :-
     read_argument(Topology0, Topology),
     options_for(network, Options, NetworkOptions),
@@ -357,6 +361,27 @@ run(diagnose, [Kind, Port], _) :-
     ;   Kind == fipa
     ->  diagnose_fipa(Port)
     ;   throw(error(typhon_usage(arguments(diagnose, [Kind,Port])), _))
+    ).
+
+joined(Options) :-
+    (   option(fleet(Fleet), Options)
+    ->  options_for(fleet, Options, FleetOptions),
+        fleet_join(Fleet, FleetOptions)
+    ;   member(Option, [redis(_), user(_), password_file(_), cacert(_)]),
+        option(Option, Options)
+    ->  required(host, fleet(_), Options)
+    ;   true
+    ).
+
+%   Agents of a host of a fleet go elsewhere before it stops.  Those that cannot
+%   stay in its journal, if it has one.
+
+drained(Name, Options) :-
+    (   option(fleet(_), Options),
+        current_predicate(typhon:fleet_drain/2)
+    ->  catch(remote(Name, fleet_drain(Name, [])), error(Formal, Context),
+              print_error(warning, error(Formal, Context)))
+    ;   true
     ).
 
 bridge_named([python]).

@@ -61,6 +61,8 @@ command(diagnose, '[ADDRESS]', 0-2,
 %
 %   Line is a line at the end of the help of Command.
 
+footer(host, 'Exit status 0: stopped in order. 1: an error. 75: another process has').
+footer(host, 'taken over its journal. Killed by itself (137 in a shell): not in time.').
 footer(network, 'Shapes of networks:').
 footer(network, Line) :-
     shape(Shape, Help),
@@ -121,7 +123,22 @@ option(host, link, atom, 'ADDRESS',
 option(host, mqtt, atom, 'URL',
        'MQTT broker for its agents, such as mqtt://localhost').
 option(host, journal, atom, 'DIR',
-       'keep the state of the process in DIR or at a postgresql:// URL').
+       'keep the state of the process in DIR, at a postgresql:// URL, or with \c
+        --fleet in redis').
+option(host, fleet, atom, 'FLEET',
+       'fleet of the host; its agents go elsewhere when it stops').
+option(host, redis, atom, 'HOST:PORT',
+       'with --fleet: its engine, a server of Redis or Valkey (required)').
+option(host, user, atom, 'NAME',
+       'with --fleet: user of the engine').
+option(host, password_file, file(read), 'FILE',
+       'with --fleet: password of the engine').
+option(host, cacert, file(read), 'FILE',
+       'with --fleet: use TLS; certificate of the authority of the engine').
+option(host, tags, atom, 'A,B',
+       'with --fleet: what any(Tag) finds the host by').
+option(host, stop_seconds, number, 'SECONDS',
+       'time to stop, before the process is killed (default 60)').
 option(host, sync, atom, 'HOW',
        'with --journal: normal or, to survive a power cut, full').
 option(network, journal, atom, 'DIR',

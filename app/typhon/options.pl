@@ -10,29 +10,62 @@
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2]).
+:- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(orders, [program_argument/2]).
 
 %!  options_for(+What, +Options:list, -For:list) is det.
 %
-%   For are the options of predicates which start a `host`, a `network`, an
-%   `agent`, a `log` or a `page`, made from Options of the command line.
+%   For are the options of predicates which start a host(Name), a `network`, an
+%   `agent`, a `log` or a `page`, or join a `fleet`, made from Options of the
+%   command line.
+%
+%   @error typhon_usage(required(host, Option)): one option needs another
 
 options_for(What, Options, For) :-
     findall(Option, option_for(What, Options, Option), For).
 
-option_for(host, Options, Option) :-
+option_for(host(_), Options, Option) :-
     member(Option, Options),
     functor(Option, Name, 1),
-    memberchk(Name, [port, bind, advertise, capacity, policy, journal, sync]).
-option_for(host, Options, Option) :-
+    memberchk(Name, [port, bind, advertise, capacity, policy, sync, fleet]).
+option_for(host(Name), Options, journal(Where)) :-
+    option(journal(Text), Options),
+    (   Text == redis
+    ->  needed(fleet(Fleet), Options),
+        atomic_list_concat([Fleet, /, Name], Journal),
+        Where = redis(Journal)
+    ;   Where = Text
+    ).
+option_for(host(_), Options, Option) :-
     log_events_option(Options, Option).
-option_for(host, Options, tokens(Tokens)) :-
+option_for(host(_), Options, tokens(Tokens)) :-
     comma_list(tokens(Text), Options, Text, Tokens).
-option_for(host, Options, authors(Authors)) :-
+option_for(host(_), Options, tags(Tags)) :-
+    comma_list(tags(Text), Options, Text, Tags),
+    needed(fleet(_), Options).
+option_for(host(_), Options, authors(Authors)) :-
     comma_list(authors(Text), Options, Text, Authors).
-option_for(host, Options, consult(Files)) :-
+option_for(host(_), Options, consult(Files)) :-
     findall(File, member(consult(File), Options), Files),
     Files \== [].
+
+option_for(fleet, Options, redis(Host:Port)) :-
+    needed(redis(Text), Options),
+    (   atomic_list_concat([Host, Text1], :, Text),
+        atom_number(Text1, Port)
+    ->  true
+    ;   throw(error(typhon_usage(option(host, value_type(redis, 'HOST:PORT',
+                                                         Text))), _))
+    ).
+option_for(fleet, Options, user(User)) :-
+    option(user(User), Options).
+option_for(fleet, Options, password(Password)) :-
+    option(password_file(File), Options),
+    read_file_to_string(File, Text, []),
+    split_string(Text, "\n", "\r", [Password|_]).
+option_for(fleet, Options, Option) :-
+    option(cacert(File), Options),
+    member(Option, [tls(true), cacert(File)]).
 
 option_for(network, Options, machines(Machines)) :-
     comma_list(machines(Text), Options, Text, Machines).
@@ -80,6 +113,13 @@ log_events_option(Options, Option) :-
 event_kind('messages(content)', messages(content)) :-
     !.
 event_kind(Kind, Kind).
+
+needed(Option, Options) :-
+    option(Option, Options),
+    !.
+needed(Option, _) :-
+    functor(Option, Name, _),
+    throw(error(typhon_usage(required(host, Name)), _)).
 
 comma_list(Option, Options, Text, Parts) :-
     option(Option, Options),

@@ -57,6 +57,17 @@ test(text_does_not_depend_on_the_locale,
                          atom_string(Line1, Line) ),
                        ended(Pid)) )).
 
+test(host_that_does_not_stop_is_killed, true(Status == killed(9))) :-
+    with_tmp_dir(Dir,
+        ( directory_file_path(Dir, 'place.pl', File),
+          write_file(File,
+                     ":- predicate_property(typhon:host_stop(_), \c
+                                            imported_from(M)), \c
+                         wrap_predicate(M:host_stop(_), hangs, _, \c
+                                        thread_get_message(never)).~n", []),
+          format(atom(After), '--consult=~w --stop-seconds=1', [File]),
+          served([], After, signals([term]), Status, _) )).
+
 test(cookie_of_other_characters_is_refused,
      [ forall(member(Bytes, ['caf\\303\\251-and-much-more-text', 'caf\\351',
                              '\\320\\277\\320\\260\\321\\200\\320\\276'])) ]) :-
