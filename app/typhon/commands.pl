@@ -61,8 +61,9 @@ command(diagnose, '[ADDRESS]', 0-2,
 %
 %   Line is a line at the end of the help of Command.
 
-footer(host, 'Exit status 0: stopped in order. 1: an error. 75: another process has').
-footer(host, 'taken over its journal. Killed by itself (137 in a shell): not in time.').
+footer(host, 'Exit status 0: stopped in order; 1: an error; 75: another').
+footer(host, 'process has its journal. If it does not stop in time it kills').
+footer(host, 'itself, which is 137 in a shell.').
 footer(network, 'Shapes of networks:').
 footer(network, Line) :-
     shape(Shape, Help),
@@ -172,7 +173,7 @@ option(network, events, atom, 'A,B',
 option(network, machines, atom, 'A,B',
        'ssh targets to start the processes on').
 option(network, start, term, 'HOW',
-       'where the processes run: local, ssh([''user@machine'']), slurm([nodes(4)])').
+       'where processes run: local, ssh([''user@machine'']), slurm([nodes(4)])').
 option(network, dynamic, term, 'MODEL',
        'model of the changes of links').
 option(network, hop_time, term, 'uniform(A,B)',

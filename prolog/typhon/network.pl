@@ -42,6 +42,8 @@ interface of the layer; its modules are loaded when they are first used.
 %       default one on each, with options nodes(N) (default 1), partition(P),
 %       time(T) as salloc takes it, more(Args) for salloc, swipl(Program) and
 %       node(File).  bind(Interface) must name an interface that they can reach
+%     - fleet(Fleet): the processes join Fleet as this process has, and its hosts
+%       belong to it.  Files of keys have the same names on all machines
 %     - machines(Machines): as start(ssh(Machines)), and a machine may be `local`
 %     - bind(Interface): of the endpoints on this machine; default `localhost`
 %     - advertise(Address): of the endpoints on this machine, as of host_start/2,
@@ -79,7 +81,7 @@ interface of the layer; its modules are loaded when they are first used.
 %
 %   @error uninstantiation_error(Network)
 %   @error domain_error(network_option, Option), domain_error(topology, T),
-%   domain_error(start, How), timeout_error(start, Network),
+%   existence_error(fleet, Fleet), domain_error(start, How), timeout_error(start, Network),
 %   system_error(process_ended(Status)), resource_error(nodes(N)) of Slurm,
 %   and the errors of host_start/2; journal_of_another(Directory, Was, Is) if
 %   the journal is that of another network

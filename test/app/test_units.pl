@@ -1,7 +1,7 @@
 :- module(test_units, []).
 
-% What service managers and Kubernetes start: units, a manifest, and the script of
-% the image, beside the command line that they call.
+% What service managers and Kubernetes start: units, a manifest, and the script
+% of the image, beside the command line that they call.
 
 :- use_module('../lib/common').
 
@@ -53,7 +53,8 @@ run(Program, Args, Status, Text) :-
 
 :- begin_tests(units).
 
-test(systemd_reads_the_unit, [forall(unit(Name)), true(Status-Text == exit(0)-"")]) :-
+test(systemd_reads_the_unit,
+     [ forall(unit(Name)), true(Status-Text == exit(0)-"") ]) :-
     project_file(Name, File),
     run(path('systemd-analyze'), [verify, File], Status, Text).
 test(host_of_a_fleet_is_started_again_and_stops_in_time) :-
@@ -66,7 +67,8 @@ test(password_is_in_no_environment_and_no_argument) :-
     fleet_unit(Lines),
     forall(( member(Line, Lines), sub_string(Line, _, _, _, "assword") ),
            assertion(( string_concat("#", _, Line)
-                     ; sub_string(Line, _, _, _, "--password-file=%d/redis") ))).
+                     ; sub_string(Line, _, _, _,
+                                  "--password-file=%d/redis") ))).
 test(units_have_the_same_walls) :-
     findall(Walls,
             ( unit(Name), project_file(Name, File), file_lines(File, Lines),
@@ -94,8 +96,8 @@ test(unit_calls_options_that_exist, [forall(unit(Name))]) :-
                 *          THE IMAGE           *
                 *******************************/
 
-%   image(+Args, +Environment, -Words): the script of the image calls the command
-%   line with Words.
+%   image(+Args, +Environment, -Words): the script of the image calls the
+%   command line with Words.
 
 image(Args, Environment, Words) :-
     with_tmp_dir(Dir,
@@ -209,7 +211,8 @@ test(manifest_has_the_published_schema,
 test(mistake_is_found,
      [ forall(member(Old-New, [ 'replicas: 3'-'replcias: 3',
                                 'port: 9700 }'-'port: x }',
-                                'serviceName: typhon'-'service: typhon' ])) ]) :-
+                                'serviceName: typhon'-'service: typhon'
+                              ])) ]) :-
     manifest(Name),
     project_file(Name, File),
     read_file_to_string(File, Text, []),

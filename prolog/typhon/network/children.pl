@@ -73,10 +73,10 @@ cannot start, and with down(Tag, Status) when it has ended. The thread is no
 %     - advertise(Address): default Interface, as of host_start/2
 %     - more(Args): options of ssh
 %
-%   A local child listens as At, at(Interface, Advertised), says. Options are for
-%   the child: port(Port), at which it listens, journal(Directory, How), see
-%   doc/journal.md, on its machine, and hosts(Options), which override the options
-%   of hosts in the journal.
+%   A local child listens as At, at(Interface, Advertised), says. Options are
+%   for the child: port(Port), at which it listens, journal(Directory, How), see
+%   doc/journal.md, on its machine, hosts(Options), which override the options
+%   of hosts in the journal, and fleet(Fleet, Joins), which it joins.
 %
 %   @error errors of machine_node/3, and of process_create/3
 

@@ -22,8 +22,8 @@
 :- use_module(nodes, [node_order/4]).
 :- use_module(plan,
               [ network_plan/3, plan_host_setup/2, plan_hosts/4,
-                plan_journal/4, plan_links/2, plan_option/2, plan_options/2,
-                plan_processes/3, plan_shape/3, plan_without/3 ]).
+                plan_joins/2, plan_journal/4, plan_links/2, plan_option/2,
+                plan_options/2, plan_processes/3, plan_shape/3, plan_without/3 ]).
 :- use_module(processes, [nodes_restart/3]).
 :- use_module(wiring, [wire_again/5, wire_go_on/2]).
 
@@ -81,10 +81,11 @@ has_own_journal(Plan) :-
 %   replaces those of the hosts in the journal of the child.
 
 lasting_child(Plan, Log, P, Options) :-
+    plan_joins(Plan, Joins),
     (   plan_journal(Plan, P, Where, How)
     ->  Options = [journal(Where, How)|More],
-        ( is_list(Log) -> More = [hosts(Log)] ; More = [] )
-    ;   Options = []
+        ( is_list(Log) -> More = [hosts(Log)|Joins] ; More = Joins )
+    ;   Options = Joins
     ).
 
 %!  lasting_goes_on(+Network, +P, +Plan) is det.

@@ -16,7 +16,8 @@
 :- use_module(building,
               [ log_option/3, network_dynamics/2, network_endpoint/4,
                 network_log/4 ]).
-:- use_module(plan, [plan_processes/3, plan_time/2, plan_without/3]).
+:- use_module(plan,
+              [plan_joins/2, plan_processes/3, plan_time/2, plan_without/3]).
 :- use_module(processes, [nodes_start/5]).
 :- use_module(saving, [saved_read/2]).
 :- use_module(wiring, [wire_hosts/4, wired_hosts/2]).
@@ -79,7 +80,7 @@ rebuild(Saved, Options, Network) :-
     plan_processes(Plan, P, Machines),
     own_port(P-Machines, Terms, Port),
     network_endpoint(Network, Plan, Port, Listens),
-    nodes_start(Network, P, Machines, Listens, child_port(Terms)),
+    nodes_start(Network, P, Machines, Listens, child_options(Plan, Terms)),
     shift(Kind, Then, Shift),
     shift_clock(Shift, Clock0, Clock),
     restart_log(Options, Log, Network, Plan, Clock, LogOptions),
@@ -97,8 +98,9 @@ own_port(1-[local], Terms, Port) :-
     port_of(1, Terms, Port).
 own_port(_, _, 0).
 
-child_port(Terms, P, [port(Port)]) :-
-    port_of(P, Terms, Port).
+child_options(Plan, Terms, P, [port(Port)|Joins]) :-
+    port_of(P, Terms, Port),
+    plan_joins(Plan, Joins).
 
 port_of(P, Terms, Port) :-
     memberchk(host(P, _, _, Address, _), Terms),

@@ -174,7 +174,8 @@ runs_at_most(Seconds, Program, Args) :-
 %   Error is Error0 of the start of a process, with the name of a Machine of
 %   start(How), and how to find the cause.
 
-machine_error(Machine, error(Formal, Context), error(Formal, context(_, Text))) :-
+machine_error(Machine, error(Formal, Context),
+              error(Formal, context(_, Text))) :-
     named(Machine, By, Name),
     !,
     (   ( remedy(By, Formal, Remedy) ; remark(Context, Remedy) )
@@ -201,10 +202,11 @@ remedy(slurm(_, _, _), system_error(process_ended(exit(2))),
        'swipl is not found there: install SWI-Prolog, or write \c
         slurm([swipl(Path)|_])').
 remedy(_, system_error(process_ended(_)),
-       'Typhon does not start there: this version must be at the same path, or \c
-        be named by the option node(File)').
+       'Typhon does not start there: this version must be at the same path, \c
+        or be named by the option node(File)').
 remedy(ssh(Target), timeout_error(start, _), Text) :-
     format(atom(Text), 'it does not answer, try: ssh ~w true', [Target]).
-remedy(slurm(_, _, _), timeout_error(start, _), 'it does not answer, see sinfo').
+remedy(slurm(_, _, _), timeout_error(start, _),
+       'it does not answer, see sinfo').
 remedy(ssh(_), existence_error(source_sink, _),
        'install ssh here, or name it by the setting typhon_children:ssh').

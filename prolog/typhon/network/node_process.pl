@@ -24,6 +24,7 @@
                 time_hold/1, time_let_go/1, time_state/1 ]).
 :- use_module('../tools/administration', [host_property/2]).
 :- autoload('../options/remote', [host_do/2]).
+:- autoload('../options/fleet', [fleet_join/2]).
 :- use_module('../options/journal', [hosts_back/1, hosts_journal/2]).
 :- use_module('../options/snapshot',
               [ agents_at_rest/2, agents_go_on/1, process_dump/2,
@@ -246,6 +247,7 @@ node_main :-
 %   the children of a process that has died.
 
 begin(at(Interface, Advertised), Seconds, Options) :-
+    forall(member(fleet(Fleet, Joins), Options), fleet_join(Fleet, Joins)),
     option(port(Port), Options, 0),
     Runtime = [bind(Interface), advertise(Advertised), port(Port)],
     (   option(journal(Directory, How), Options)

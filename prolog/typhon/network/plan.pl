@@ -12,6 +12,7 @@
             plan_host_setup/2,          % +Plan, -Goals
             plan_dynamics/3,            % +Plan, +Time, -State
             plan_journal/4,             % +Plan, +P, -Where, -How
+            plan_joins/2,               % +Plan, -Options
             plan_options/2,             % +Plan, -Options
             plan_shape/3,               % +Plan, -Names, -Edges
             plan_without/3              % +Plan0, +Names, -Plan
@@ -23,6 +24,7 @@
 :- use_module(library(option), [option/2, option/3, select_option/4]).
 :- use_module(library(random), [random_between/3]).
 :- use_module('../kernel/base/options', [check_options/2]).
+:- autoload('../options/fleet', [fleet_options/2]).
 :- use_module('../options/journal', [journal_part/3, journal_place/2]).
 :- use_module(dynamics,
               [ dynamics_edges/2, dynamics_model/2, dynamics_state/5,
@@ -79,6 +81,7 @@ typhon_options:declared(network_option, Option, Type, Value) :-
 option_type(processes(P), positive_integer, P).
 option_type(machines(Machines), list, Machines).
 option_type(start(How), nonvar, How).
+option_type(fleet(Fleet), atom, Fleet).
 option_type(bind(Interface), atom, Interface).
 option_type(advertise(Address), atom, Address).
 option_type(tls(Directory), atom, Directory).
@@ -105,6 +108,8 @@ check_option(advertise(Address)), sub_atom(Address, _, _, _, :) =>
                 context(_, 'without a port: each process has its own'))).
 check_option(start(How)) =>
     check_start(How).
+check_option(fleet(Fleet)) =>
+    fleet_options(Fleet, _).
 check_option(log(_, Kinds)) =>
     must_be(list(event_kind), Kinds).
 check_option(hop_time(Time)) =>
@@ -126,8 +131,8 @@ check_start(slurm(Options)) =>
     check_options(slurm_option, Options).
 check_start(How) =>
     throw(error(domain_error(start, How),
-                context(_, 'write start(local), start(ssh([\'user@machine\'])) \c
-                            or start(slurm([nodes(2)]))'))).
+                context(_, 'write start(local), \c
+                            start(ssh([\'user@machine\'])) or start(slurm([nodes(2)]))'))).
 
 check_hop_time(Time) :-
     (   interval(Time)
@@ -210,6 +215,7 @@ elsewhere(processes(P)) :-
 elsewhere(machines([_|_])).
 elsewhere(start(How)) :-
     How \== local.
+elsewhere(fleet(_)).
 
 seeded(Options, Seed, Options) :-
     option(seed(Seed), Options),
@@ -244,8 +250,8 @@ plan_log(Plan, File, []) :-
 
 %!  plan_processes(+Plan, -P, -Machines) is det.
 %
-%   P processes run the network; each of Machines, a list or slurm(Options), runs
-%   a block of them.
+%   P processes run the network; each of Machines, a list or slurm(Options),
+%   runs a block of them.
 
 plan_processes(plan(Names, _, _, Options), P, Machines) :-
     machines(Options, Machines, M),
@@ -313,10 +319,11 @@ plan_host_setup(Plan, Goals) :-
 host_options(Plan, I, Common, HostOptions) :-
     plan_option(Plan, seed(Seed)),
     HostSeed is Seed * 65536 + I,
-    (   plan_option(Plan, hop_time(Time))
-    ->  Given = [seed(HostSeed), hop_time(Time)|Common]
-    ;   Given = [seed(HostSeed)|Common]
-    ),
+    findall(Option,
+            ( member(Option, [hop_time(_), fleet(_)]),
+              plan_option(Plan, Option) ),
+            Planned),
+    append([seed(HostSeed)|Planned], Common, Given),
     (   plan_option(Plan, hosts(Own))
     ->  exclude(overridden(Own), Given, Ours),
         append(Own, Ours, HostOptions)
@@ -421,6 +428,15 @@ plan_journal(Plan, P, Part, How) :-
     ->  How = How0
     ;   How = normal
     ).
+
+%!  plan_joins(+Plan, -Options) is det.
+%
+%   Options of child_start/6 for processes that belong to a fleet.
+
+plan_joins(Plan, Options) :-
+    findall(fleet(Fleet, Joins),
+            ( plan_option(Plan, fleet(Fleet)), fleet_options(Fleet, Joins) ),
+            Options).
 
 %!  plan_options(+Plan, -Options) is det.
 %

@@ -67,8 +67,8 @@ most_named(10).
 
 %!  nodes_start(+Network, +P, +Machines, +At, :Options) is det.
 %
-%   Start P processes; each of Machines, or of the nodes of slurm(Options), runs a
-%   block of them. With `[local]` and
+%   Start P processes; each of Machines, or of the nodes of slurm(Options), runs
+%   a block of them. With `[local]` and
 %   P = 1 the hosts run in this process. call(Options, I, List) returns the
 %   options of child_start/6 for process I. After an exception nodes_stop/1
 %   stops the processes that were started.

@@ -1,6 +1,7 @@
 :- module(typhon_fleets,
           [ fleet_join/2,               % +Fleet, +Options
             fleet_leave/1,              % +Fleet
+            fleet_options/2,            % +Fleet, -Options
             fleet_hosts/3,              % +Fleet, -Hosts, +Options
             fleet_watch/3,              % +Fleet, :OnChange, -Watch
             fleet_unwatch/1,            % +Watch
@@ -10,7 +11,8 @@
 :- use_module(fleet/fleet_words, []).
 :- autoload('fleet/drain', [drain_host/2]).
 :- autoload('fleet/fleet_watches', [unwatch_fleet/1, watch_fleet/3]).
-:- autoload('fleet/members', [join_fleet/2, leave_fleet/1]).
+:- autoload('fleet/members',
+            [fleet_joined/2, join_fleet/2, leave_fleet/1, must_be_fleet/1]).
 :- autoload('fleet/tags', [hosts_of_fleet/3]).
 
 /** <module> Fleets: hosts on many machines, which come, vanish and come back
@@ -61,6 +63,16 @@ fleet_join(Fleet, Options) :-
 
 fleet_leave(Fleet) :-
     leave_fleet(Fleet).
+
+%!  fleet_options(+Fleet, -Options:list) is det.
+%
+%   This process has joined Fleet with Options, which may hold a password.
+%
+%   @error existence_error(fleet, Fleet)
+
+fleet_options(Fleet, Options) :-
+    must_be_fleet(Fleet),
+    fleet_joined(Fleet, Options).
 
 %!  fleet_hosts(+Fleet, -Hosts:list, +Options) is det.
 %

@@ -55,8 +55,8 @@ state(Pid, State) :-
 ended(Pid) :-
     \+ ( state(Pid, State), State \== "Z" ).
 
-%   The argument and the environment of no process of this machine has the
-%   cookie: neither of those of the network, nor of the programs that reach them.
+%   No argument and no environment of a process of this machine has the cookie:
+%   of a process of the network, or of a program that reaches one.
 
 cookie_is_hidden :-
     cookie(Cookie),
@@ -118,8 +118,8 @@ says(How, Part) :-
                 *              SSH             *
                 *******************************/
 
-%   over_ssh(:Goal, +Dir, +Ssh): call Goal with a machine that Ssh reaches, and a
-%   predicate for others.
+%   over_ssh(:Goal, +Dir, +Ssh): call Goal with a machine that Ssh reaches, and
+%   the arguments of Ssh.
 
 :- meta_predicate over_ssh(2, +, +).
 
@@ -180,7 +180,8 @@ stop_over_ssh(Machine, _) :-
 
 errors_over_ssh(machine(Target, Options), Args) :-
     append(Before, ['-i', _|After], Args),
-    append(Before, ['-o', 'IdentitiesOnly=yes', '-i', '/dev/null'|After], Other),
+    append(Before, ['-o', 'IdentitiesOnly=yes', '-i', '/dev/null'|After],
+           Other),
     says(ssh([machine(Target, [more(Other)])]),
          "on 127.0.0.1: ssh cannot log in, try: ssh 127.0.0.1 true"),
     says(ssh([machine('no.such.host.invalid', Options)]),
@@ -220,7 +221,8 @@ jobs(Jobs) :-
     process_wait(Pid, exit(0)),
     split_string(Text, "\n", "\n ", Lines),
     findall(Job,
-            ( member(Line, Lines), split_string(Line, " ", "", [Job, "RUNNING"]) ),
+            ( member(Line, Lines),
+              split_string(Line, " ", "", [Job, "RUNNING"]) ),
             Jobs).
 
 run_in_slurm(Swipl) :-
@@ -241,7 +243,8 @@ run_in_slurm(Swipl) :-
 
 restart_in_slurm(Swipl) :-
     capturing(with_network(ring(4),
-                           [ start(slurm([Swipl])), processes(2), restart(true) ],
+                           [ start(slurm([Swipl])), processes(2),
+                             restart(true) ],
                            Network, Hosts,
                            killed_process_is_restarted(Network, Hosts)),
               _).
