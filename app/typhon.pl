@@ -270,7 +270,7 @@ run(host, [Name], Options) :-
                  mqtt_start(Name, Broker, [wait(false)])),
           print_line(Address)
         ),
-        ( drained(Name, Options), host_stop(Name) ),
+        ( drained(Name, Seconds, Options), host_stop(Name) ),
         Seconds).
 run(network, [Topology0], Options) :-
     read_argument(Topology0, Topology),
@@ -373,13 +373,13 @@ joined(Options) :-
     ;   true
     ).
 
-%   Agents of a host of a fleet go elsewhere before it stops.  Those that cannot
-%   stay in its journal, if it has one.
+%   Agents of a host of a fleet go elsewhere before it stops, for which a third of
+%   Seconds is left.  Those that cannot stay in its journal, if it has one.
 
-drained(Name, Options) :-
-    (   option(fleet(_), Options),
-        current_predicate(typhon:fleet_drain/2)
-    ->  catch(remote(Name, fleet_drain(Name, [])), error(Formal, Context),
+drained(Name, Seconds, Options) :-
+    (   option(fleet(_), Options)
+    ->  Most is Seconds*2/3,
+        catch(fleet_drain(Name, [seconds(Most)]), error(Formal, Context),
               print_error(warning, error(Formal, Context)))
     ;   true
     ).
