@@ -2,7 +2,7 @@
 
 /** <module> A process with a journal, which dies at its steps
 
-    swipl node.pl -- NAME PORT DIR SYNC SEED ENGINE
+    swipl node.pl -- NAME PORT DIR SYNC SEED [ENGINE]
 
 Starts the host NAME, with its journal in DIR, or in the engine at the port
 ENGINE, if that is not `none`; prints `ready`; ends with its standard input, from
@@ -93,6 +93,8 @@ die_soon :-
 
 :- public main/1.
 
+main([Name, Port, Dir, Sync, Seed]) :-
+    main([Name, Port, Dir, Sync, Seed, none]).
 main([Name, Port0, Dir, Sync, Seed0, Engine]) :-
     atom_number(Port0, Port),
     atom_number(Seed0, Seed),

@@ -147,21 +147,24 @@ test(long_commits_go_in_parts) :-
                 *       OTHER PROCESSES        *
                 *******************************/
 
-before(Redis, ( fleet_join(lab, [redis(Address), lease(0.5)]) )) :-
+before(Redis, Before) :-
+    before(Redis, 0.5, Before).
+
+before(Redis, Lease, fleet_join(lab, [redis(Address), lease(Lease)])) :-
     redis_address(Redis, Address).
 
 test(other_process_is_locked_out_until_its_lease_lapses) :-
     in_lab(Redis, locked_out(Redis)).
 
 locked_out(Redis) :-
-    before(Redis, Before),
+    before(Redis, 4, Before),           % on a slow machine, too
     while_open_elsewhere(Before, redis('lab/a'), Pid,
                ( error_of(with_journal(true),
                           permission_error(open, journal, 'redis:lab/a')),
                  with_store(redis('lab/b'), true),
                  process_kill(Pid, kill),
                  process_wait(Pid, _),
-                 with_journal(true) )).
+                 wait_until(error_of(with_journal(true), none), 20) )).
 
 %   It is not asked again, and the process is told once.
 
