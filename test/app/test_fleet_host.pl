@@ -71,6 +71,15 @@ as_member(Redis, Goal) :-
 
 :- meta_predicate as_member(+, 0).
 
+keeper(Host, Agent) :-
+    agent_create(clauses([ (:- agent(keeper, [state([k/1])])),
+                           (on_message(_, M) :- assertz(k(M))) ]),
+                 Agent, [host(Host), static(true)]).
+
+kept(Agent, Ms) :-
+    agent_property(Agent, facts(Facts)),
+    findall(M, member(k(M), Facts), Ms).
+
 up(Tag, Hosts) :-
     catch(fleet_hosts(lab, Hosts, [tag(Tag), state(up)]),
           error(existence_error(tag, _), _), Hosts = []).
@@ -103,6 +112,19 @@ test(agents_go_elsewhere_when_the_host_gets_a_signal,
               agent_join(Agent, Outcome, 60),
               findall(H, remote(other, take(was(H))), There),
               host_stop(other) )))).
+test(journal_in_the_engine_outlives_the_process, true(Got == [kept])) :-
+    no_leaks(with_engine(Redis, File,
+        as_member(Redis,
+            ( engine_options(Redis, File, Options),
+              free_port(Port),
+              format(atom(At), '--port=~d', [Port]),
+              All = [At, '--journal=redis'|Options],
+              hosting(All, Host,
+                      ( keeper(Host, Agent),
+                        agent_send(Agent, kept),
+                        wait_until(kept(Agent, [kept]), 20) ),
+                      exit(0)),
+              hosting(All, Host, kept(Agent, Got), exit(0)) )))).
 test(password_is_no_argument_and_in_no_environment) :-
     with_engine(Redis, File,
         ( engine_options(Redis, File, Options),
