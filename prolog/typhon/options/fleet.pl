@@ -8,7 +8,6 @@
             fleet_drain/2               % +Host, +Options
           ]).
 :- use_module(library(error), [must_be/2]).
-:- use_module(fleet/fleet_words, []).
 :- autoload('fleet/drain', [drain_host/2]).
 :- autoload('fleet/fleet_watches', [unwatch_fleet/1, watch_fleet/3]).
 :- autoload('fleet/members',

@@ -37,6 +37,7 @@ joins(fleet,'options/fleet',[joined]).
 joins(host_option,'options/access',[audit,peer]).
 joins(host_option,'options/cell',[cell]).
 joins(host_option,'options/concurrency',[concurrency]).
+joins(host_option,'options/fleet',[fleet,tags]).
 joins(host_option,'options/guard',[policy]).
 joins(host_option,'options/host_log',[log]).
 joins(host_option,'options/identity',[authors]).

@@ -1,7 +1,6 @@
 :- module(typhon_engine,
           [ engine_open/2,              % +Fleet, +Options
             engine_close/1,             % +Fleet
-            engine_option/2,            % +Fleet, ?Option
             engine/3,                   % +Fleet, +Command, -Reply
             engine_script/4,            % +Fleet, +Script, +Args, -Reply
             engine_run_id/2,            % +Fleet, -Id
@@ -54,7 +53,6 @@ its fleet.
 
 %!  engine_open(+Fleet, +Options) is det.
 %!  engine_close(+Fleet) is det.
-%!  engine_option(+Fleet, ?Option) is nondet.
 %
 %   Options: redis(Host:Port), or sentinel(Name) and sentinels(Addresses);
 %   user(User), password(Password), tls(true), cacert(File), key(File),
@@ -76,10 +74,6 @@ engine_close(Fleet) :-
         retractall(down(Fleet, _, _))
     ;   true
     ).
-
-engine_option(Fleet, Option) :-
-    server(Fleet, _, Options),
-    member(Option, Options).
 
 close_idle(Idle) :-
     (   thread_get_message(Idle, connection(C), [timeout(0)])

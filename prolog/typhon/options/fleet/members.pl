@@ -58,6 +58,9 @@ modules add by the hooks work/1 and order/2.
     fleet/3,                    % Fleet, Server, Options
     member/4.                   % Fleet, Endpoint, Token, Epoch: its lease
 
+typhon_options:declared(host_option, fleet(X), atom, X).
+typhon_options:declared(host_option, tags(X), list(atom), X).
+
 typhon_names:known(fleet, Fleet) :-
     fleet(Fleet, _, _).
 

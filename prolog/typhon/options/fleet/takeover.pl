@@ -1,17 +1,16 @@
-:- module(typhon_takeover,
-          [ stand_in/0
-          ]).
+:- module(typhon_takeover, []).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
+:- use_module(library(thread), [concurrent_forall/3]).
 :- use_module(library(socket), [tcp_bind/2, tcp_close_socket/1, tcp_socket/1]).
+:- use_module('../../kernel/base/on_demand', [on_demand_call/3]).
 :- use_module('../../kernel/host',
               [ address_parts/3, hosts_go_on/0, hosts_rest/0, process_ask/6,
                 runtime_acquire/2 ]).
 :- use_module('../../kernel/wire', [endpoint_address/1]).
-:- use_module('../journal', [hosts_back/1, hosts_journal/2]).
 :- use_module(engine, [engine/3, engine_key/3]).
 :- use_module(members,
               [fleet_joined/2, fleet_tell/2, join_fleet/2]).
@@ -36,13 +35,14 @@ more: its hosts rest, and it ends with status 75.
     typhon_connection:leads_to/2,
     typhon_members:beaten/3,
     typhon_members:fenced/2,
-    typhon_members:is_new/1,
+    typhon_members:is_gone/1,
     typhon_members:recovers/1,
     typhon_members:stands_at/2,
     typhon_on_demand:joins/2.
 
 :- dynamic
     given_up/0,
+    meeting/0,                  % this process stands in, and nothing knows it yet
     standing/2.                 % Endpoint, At: this process is known by Endpoint
 
 typhon_on_demand:joins(fleet, joined).
@@ -129,26 +129,32 @@ put_in(Arg0, Endpoint, Journal, Arg) :-
     atomic_list_concat(Parts, '{journal}', Arg1),
     atomic_list_concat(Parts, Journal, Arg).
 
-%!  stand_in is det.
-%
 %   The goal of a process that stands in for another one.  It reads from standard
 %   input for which, opens its journal, and goes on as that process, known by its
 %   address, at an address of its own.  It ends when it is fenced in turn.
+
+:- public stand_in/0.
 
 stand_in :-
     read(stand_in(Fleet, Options, Interface, Endpoint, Journal)),
     atomic_list_concat([Fleet,Journal], /, Path),
     join_fleet(Fleet, Options),
-    hosts_journal(redis(Path), [wait(15)]),
+    journal_call(typhon_recovery:hosts_journal(redis(Path), [wait(15)])),
     free_port(Interface, Port),
     Runtime = [bind(Interface), advertise(Endpoint), port(Port)],
     runtime_acquire(stand_in, Runtime),
     atomic_list_concat([Interface,Port], :, At),
     assertz(standing(Endpoint, At)),
-    hosts_back(Runtime),
+    assertz(meeting),
+    journal_call(typhon_recovery:hosts_back(Runtime)),
     hosts_go_on,
+    meet(Fleet, Endpoint),
+    retractall(meeting),
     fleet_tell(Fleet, beat),
     thread_get_message(typhon_never).
+
+journal_call(Goal) :-
+    on_demand_call(host_option, journal, Goal).
 
 %   With port(0) it would be that of the journal, which the other process may hold.
 
@@ -159,25 +165,27 @@ free_port(Interface, Port) :-
 typhon_members:stands_at(Endpoint, At) :-
     standing(Endpoint, At).
 
-%   Peers may still be connected to the process for which this one stands in: a
-%   later start of the same process displaces it.
+%   Peers may still be connected to the process for which this one stands in, and
+%   would send to that: a later start of the same process displaces it.  So this
+%   one meets them before its hosts are known to be up.
 
-typhon_members:is_new(Fleet) :-
-    (   standing(Endpoint, _)
-    ->  thread_create(typhon_takeover:meet(Fleet, Endpoint), _,
-                      [detached(true)])
-    ;   true
-    ).
-
-:- public meet/2.
+typhon_members:is_gone(_) :-
+    meeting.
 
 meet(Fleet, Own) :-
     hosts_of_fleet(Fleet, Hosts, [state(up)]),
-    findall(Peer, ( member(Host, Hosts), address_parts(Host, _, Peer) ), Peers0),
+    findall(Peer, ( member(Host, Hosts),
+                    address_parts(Host, _, Peer),
+                    Peer \== Own ),
+            Peers0),
     sort(Peers0, Peers),
-    forall(( member(Peer, Peers), Peer \== Own ),
-           catch(process_ask(Peer, Peer, hosting, hosts, _, 10), error(_, _),
-                 true)).
+    concurrent_forall(member(Peer, Peers), typhon_takeover:met(Peer),
+                      [threads(16)]).
+
+:- public met/1.
+
+met(Peer) :-
+    catch(process_ask(Peer, Peer, hosting, hosts, _, 3), error(_, _), true).
 
 %   In the thread that is about to connect to Address.
 

@@ -7,7 +7,7 @@
 :- use_module('../../../lib/peers').
 :- use_module('../../../lib/redis').
 :- use_module(library(debug), [assertion/1]).
-:- use_module(library(lists), [member/2, numlist/3]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(typhon)).
