@@ -38,7 +38,8 @@ more: its hosts rest, and it ends with status 75.
     typhon_members:is_gone/1,
     typhon_members:recovers/1,
     typhon_members:stands_at/2,
-    typhon_on_demand:joins/2.
+    typhon_on_demand:joins/2,
+    typhon_store:fenced/1.
 
 :- dynamic
     given_up/0,
@@ -51,13 +52,19 @@ typhon_on_demand:joins(fleet, joined).
                 *            FENCES            *
                 *******************************/
 
-%   In the thread of the fleet, which hosts_rest/0 stops.
+%   In the thread of the fleet or of a commit, which hosts_rest/0 stops.
 
 typhon_members:fenced(Fleet, Why) :-
+    gives_up(typhon(fleet_fenced(Fleet, Why))).
+
+typhon_store:fenced(Place) :-
+    gives_up(typhon(journal_fenced(Place))).
+
+gives_up(Message) :-
     (   given_up
     ->  true
     ;   assertz(given_up),
-        print_message(error, typhon(fleet_fenced(Fleet, Why))),
+        print_message(error, Message),
         thread_create(typhon_takeover:rest, _,
                       [alias(typhon_fleet_end), detached(true)])
     ).
@@ -206,6 +213,9 @@ prolog:message(typhon(fleet_fenced(Fleet, address))) -->
 prolog:message(typhon(fleet_fenced(Fleet, journal))) -->
     [ 'Another process has opened the journal of this one in the fleet ~w: '-
       [Fleet], nl, 'the hosts of this process rest' ].
+prolog:message(typhon(journal_fenced(Place))) -->
+    [ 'Another process has opened the journal ~w of this one: '-[Place], nl,
+      'the hosts of this process rest' ].
 prolog:message(typhon(fleet_recovers(Fleet, Endpoint, Journal))) -->
     [ 'Process ~w of the fleet ~w has gone: another one opens its journal ~w'-
       [Endpoint, Fleet, Journal] ].

@@ -31,9 +31,12 @@ local function hosts_of(e)
   return call('SMEMBERS', p..'on:'..e)
 end
 
+-- A process is up until a beat of another one finds its lease lapsed, which is an
+-- event; where no process beats any more, for one more lease.
+
 local function lives(e, now)
   local lapses = call('ZSCORE', p..'lease', e)
-  return lapses and tonumber(lapses) > now
+  return lapses and now < lapses + (call('HGET', p..'p:'..e, 'ttl') or 0)
 end
 
 local function each_tag(host, f)
