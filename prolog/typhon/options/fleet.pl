@@ -43,7 +43,10 @@ This is the interface of the layer; its modules are loaded when they are used.
 %     - report(Seconds): how often it is reported where agents are; default 1
 %     - fsync(When): `always` if the engine confirms nothing that it could lose,
 %       or `everysec`, the default
-%     - recover(Bool): this process opens the journals of members that have gone
+%     - recover(How): this process asks for journals in the engine whose processes
+%       have gone.  With `true` it starts a process on this machine that stands in
+%       for each; with a list, the program and arguments of a command, that
+%       command does, with `{endpoint}` and `{journal}` replaced
 %
 %   @error permission_error(join, fleet, Fleet): it is a member already
 %   @error existence_error(option, redis), domain_error(fleet_option, Option)

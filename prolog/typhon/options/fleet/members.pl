@@ -112,7 +112,8 @@ option_type(cert(X), text, X).
 option_type(lease(X), between(0.2, 86400.0), X).
 option_type(report(X), between(0.05, 86400.0), X).
 option_type(fsync(X), oneof([always, everysec]), X).
-option_type(recover(X), any, X).
+option_type(recover(X), boolean, X).
+option_type(recover(X), list(atomic), X).
 
 leave_fleet(Fleet) :-
     must_be_fleet(Fleet),

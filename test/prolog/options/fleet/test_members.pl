@@ -77,6 +77,10 @@ test(least_loaded_host_is_first, Names == [beta,alpha]) :-
                  wait_until(test_members:hosts([], [beta,alpha]), 10),
                  hosts([], Names) )).
 
+test(hosts_near_a_host_are_those_it_has_links_to_first, Names == [b,d,a,c]) :-
+    with_fleet([], _, [a-[], b-[], c-[], d-[]],
+               ( link(b, d), hosts([near(b)], Names) )).
+
 test(own_choices_count, Hosts == [a,a,a,b,b,b]) :-
     with_fleet([], _, [a-[x], b-[x]],
                ( findall(A, ( between(1, 6, _),

@@ -7,9 +7,11 @@
 :- use_module('../../../lib/peers').
 :- use_module('../../../lib/redis').
 :- use_module(library(debug), [assertion/1]).
+:- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_kill/2]).
+:- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(typhon)).
 
 :- needs([fleet]).
@@ -216,5 +218,25 @@ test(process_that_comes_back_in_time_keeps_its_journal) :-
                           peer_signal(beta, cont),
                           up([alpha,beta]),
                           asked(Agent, 2) ))).
+
+test(command_starts_a_stand_in_with_endpoint_and_journal, Text == Wanted) :-
+    with_tmp_dir(Dir, told_command(Dir, Text, Wanted)).
+
+told_command(Dir, Text, Wanted) :-
+    directory_file_path(Dir, told, File),
+    format(atom(Script), 'echo "$1 $2" > ~w.new && mv ~w.new ~w',
+           [File, File, File]),
+    Command = [sh, '-c', Script, sh, '{endpoint}', 'j={journal}'],
+    with_fleet([lease(2), recover(Command)], Redis, [alpha-[]],
+               ( member_spec(Redis, beta, [lease(2)],
+                             [journal(redis('lab/beta'))], Beta),
+                 with_peers([Beta],
+                            ( up([alpha,beta]),
+                              peer_host(beta, Host),
+                              peer_kill(beta),
+                              wait_until(exists_file(File), 60) )) )),
+    read_file_to_string(File, Text, []),
+    atomic_list_concat([_,Endpoint], @, Host),
+    format(string(Wanted), '~w j=beta~n', [Endpoint]).
 
 :- end_tests(takeover).
