@@ -96,6 +96,7 @@ option_type(dynamic(Model), nonvar, Model).
 option_type(seed(Seed), integer, Seed).
 option_type(journal(Directory), text, Directory).
 option_type(journal(postgresql(Url)), text, Url).
+option_type(journal(redis(Path)), atom, Path).
 option_type(sync(How), oneof([full, normal]), How).
 option_type(restart(Restart), boolean, Restart).
 

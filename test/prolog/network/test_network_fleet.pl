@@ -79,6 +79,21 @@ test(killed_process_is_a_member_again) :-
               wait_until(again(Network, Pid), 60),
               wait_until(all_up(Hosts), 20) )),
         _)).
+test(agent_outlives_its_process_by_a_journal_in_the_engine, N == 7) :-
+    in_fleet(capturing(
+        with_network(ring(2), [ fleet(lab), processes(2), restart(true),
+                                journal(redis('lab/net')) ],
+                     Network, [_,Host],
+            ( agent_create(clauses([ (:- agent(keeper, [state([n/1])])),
+                                     n(7),
+                                     (main :- receive(_-go), n(N), result(N)) ]),
+                           Agent, [host(Host)]),
+              network_property(Network, processes([_, Pid])),
+              process_kill(Pid, kill),
+              wait_until(again(Network, Pid), 60),
+              agent_send(Agent, go),
+              agent_result(Agent, N, 60) )),
+        _)).
 test(loaded_network_belongs_to_the_fleet) :-
     with_tmp_dir(Dir,
         ( directory_file_path(Dir, saved, File),
