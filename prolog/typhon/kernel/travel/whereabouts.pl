@@ -363,7 +363,8 @@ typhon_scheduler:fire(Id, join(Token)) :-
 %   Before the timeout the news of a hop from there may be under way.
 
 at_timeout(Id, lost(Host)) :-
-    born(Id, Host, _, _),
+    born(Id, Host, _, Process),
+    Process \== unknown,                % it may be kept elsewhere
     address_parts(Host, _, Endpoint),
     endpoint_gone(Endpoint),
     !.
@@ -508,7 +509,7 @@ agent_resumed(Id, Stamp, Hops) :-
 report_to_home(Id, News) :-
     agent_home_endpoint(Id, Home),
     (   endpoint_address(Home)
-    ->  news(here, News)
+    ->  news(here-here, News)
     ;   news_send(Home, Id, News)
     ).
 
@@ -536,22 +537,25 @@ typhon_endpoint:received(whereabouts, shown(Births, All), Peer) :-
 receive_news(All, Births, Peer) :-
     include(news_accepted(Peer, Births), All, Accepted),
     process_at(Peer, Process),
-    maplist(news(Process), Accepted).
+    maplist(news(Peer-Process), Accepted).
 
 news_accepted(Peer, Births, News) :-
     arrival_permitted(news, whereabouts, News, Peer),
     arg(1, News, Id),
     peer_may_send_for(Peer, Births, Id).
 
-news(Process, located(Id, Address, Hops)) :-
-    address_parts(Address, _, _),
+%   An agent that is kept elsewhere is located by the process that it left.
+
+news(Peer-Process0, located(Id, Address, Hops)) :-
+    address_parts(Address, _, Endpoint),
+    ( Endpoint == Peer -> Process = Process0 ; Process = unknown ),
     home_moved(Id, Address, Hops, Process).
-news(Process, ended(Id, Outcome, Hops)) :-
-    news(Process, ended(Id, Outcome, Hops, [])).
+news(From, ended(Id, Outcome, Hops)) :-
+    news(From, ended(Id, Outcome, Hops, [])).
 news(_, ended(Id, Outcome, Hops, Results)) :-
     must_be(list(typhon_payloads), Results),
     home_ended(Id, Outcome, Hops, Results).
-news(Process, faulty(Id, Outcome, Stamp, Address, Hops)) :-
+news(_-Process, faulty(Id, Outcome, Stamp, Address, Hops)) :-
     address_parts(Address, _, _),
     home_faulty(Id, Outcome, Stamp, Address, Hops, Process).
 news(_, resumed(Id, Stamp, Hops)) :-
