@@ -23,6 +23,7 @@
             durable_drop_all/2,         % +Kind, +Key
             durable_drop_below/3,       % +Kind, +Key, +N
             unit_of_work/1,             % :Goal
+            after_unit/1,               % +Goal
             enqueue_changes/0,
             effects_deferred/0,
             deferred_drop/3,            % +Kind, +Key, +N
@@ -113,6 +114,7 @@ before agents run.
     durable_key/2,
     change/1,                           % Change: to be committed
     in_unit/1,                          % Goal: call it as one unit of work
+    after_unit/1,
     enqueue/0,                          % see enqueue_changes/0
     deferring/0,                        % an agent acts in this thread
     deferred_drop/3,
@@ -339,6 +341,11 @@ durable_drop_below(Kind, Key, N) :-
 
 unit_of_work(Goal) :-
     ( durable_on -> in_unit(Goal) ; once(Goal) ).
+
+%!  after_unit(+Goal) is det.
+%
+%   While durable_on/0 holds: call the qualified Goal in this thread when the
+%   changes of this unit of work are queued; at once outside of one.
 
 %!  enqueue_changes is det.
 %

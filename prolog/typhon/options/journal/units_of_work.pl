@@ -47,6 +47,7 @@ effects.
 
 :- multifile
     dropped/1,                          % Changes: their unit of work has failed
+    typhon_durable:after_unit/1,
     typhon_durable:go_on/0,
     typhon_durable:change/1,
     typhon_durable:commit/0,
@@ -65,6 +66,7 @@ effects.
 :- thread_local
     pending/1,                          % Change
     deferred/1,                         % Change
+    follows/1,                          % Goal: of after_unit/1
     after/1.                            % Goal
 
 :- dynamic act_again/4.                 % Kind, N, Key, Term: deferred before a
@@ -221,7 +223,18 @@ typhon_durable:in_unit(Goal) :-
     ;   setup_call_cleanup(nb_setval(typhon_durable_unit, true),
                            ( once(Goal), enqueue ),
                            ( nb_setval(typhon_durable_unit, false),
-                             drop_pending ))
+                             drop_pending )),
+        ( follows(_) -> follow ; true )
+    ).
+
+follow :-
+    findall(Goal, retract(follows(Goal)), Goals),
+    forall(member(Goal, Goals), release(Goal)).
+
+typhon_durable:after_unit(Goal) :-
+    (   nb_current(typhon_durable_unit, true)
+    ->  assertz(follows(Goal))
+    ;   call(Goal)
     ).
 
 drop_pending :-
