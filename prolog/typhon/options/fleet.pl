@@ -5,13 +5,18 @@
             fleet_hosts/3,              % +Fleet, -Hosts, +Options
             fleet_watch/3,              % +Fleet, :OnChange, -Watch
             fleet_unwatch/1,            % +Watch
-            fleet_drain/2               % +Host, +Options
+            fleet_drain/2,              % +Host, +Options
+            fleet_parked/2,             % +Fleet, -Parked
+            fleet_park_drop/2,          % +Fleet, +Agent
+            fleet_park_send/2           % +Fleet, +Agent
           ]).
 :- use_module(library(error), [must_be/2]).
 :- autoload('fleet/drain', [drain_host/2]).
 :- autoload('fleet/fleet_watches', [unwatch_fleet/1, watch_fleet/3]).
 :- autoload('fleet/members',
             [fleet_joined/2, join_fleet/2, leave_fleet/1, must_be_fleet/1]).
+:- autoload('fleet/parking',
+            [parked_drop/2, parked_in_fleet/2, parked_send/2]).
 :- autoload('fleet/tags', [hosts_of_fleet/3]).
 
 /** <module> Fleets: hosts on many machines, which come, vanish and come back
@@ -130,3 +135,34 @@ fleet_unwatch(Watch) :-
 
 fleet_drain(Host, Options) :-
     drain_host(Host, Options).
+
+%!  fleet_parked(+Fleet, -Parked:list) is det.
+%
+%   The agents that are parked in the engine of Fleet, parked(Agent, Host, Since,
+%   Until), the oldest first.  They moved to the address Host with the option
+%   wait(Seconds) when it could not be reached, and go on when it is back, or
+%   where they were at Until, `inf` for never; or Host is where they were, and they
+%   return there.  Since and Until are as in get_time/1, by the clock of the
+%   engine.
+%
+%   @error existence_error(fleet, Fleet), resource_error(fleet(Fleet))
+
+fleet_parked(Fleet, Parked) :-
+    parked_in_fleet(Fleet, Parked).
+
+%!  fleet_park_drop(+Fleet, +Agent) is det.
+%!  fleet_park_send(+Fleet, +Agent) is det.
+%
+%   Agent, which is parked, waits no more: it goes on where it was, with
+%   host_unreachable(Host) raised at its move; or it is sent to its host now, by
+%   this process.
+%
+%   @error existence_error(parked_agent, Agent), also if its host is taking it
+%   @error host_unreachable(Host): it stays parked
+%   @error existence_error(fleet, Fleet), resource_error(fleet(Fleet))
+
+fleet_park_drop(Fleet, Agent) :-
+    parked_drop(Fleet, Agent).
+
+fleet_park_send(Fleet, Agent) :-
+    parked_send(Fleet, Agent).

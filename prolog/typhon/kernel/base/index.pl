@@ -26,6 +26,7 @@ joins(check_option,'options/guard',[policy]).
 joins(description,'options/fleet',[any]).
 joins(durable,'options/concurrency',[turns]).
 joins(durable,'options/directory',[offer]).
+joins(durable,'options/fleet',[fleet_letter]).
 joins(durable,'options/identity',[birth]).
 joins(durable,'options/journal',[agent,letter,logged,out,seen,state,tuple]).
 joins(durable,'options/snapshot',[order,program,stands,stays]).
@@ -104,7 +105,7 @@ files('options/cell',['options/cell/cell_hosts','options/cell/gatekeeper']).
 files('options/concurrency',['options/concurrency']).
 files('options/directory',['options/directory/offers']).
 files('options/external_recipients',['options/external_recipients']).
-files('options/fleet',['options/fleet/drain','options/fleet/fleet_journal','options/fleet/members','options/fleet/registry','options/fleet/tags','options/fleet/takeover']).
+files('options/fleet',['options/fleet/drain','options/fleet/fleet_journal','options/fleet/members','options/fleet/parking','options/fleet/registry','options/fleet/tags','options/fleet/takeover']).
 files('options/guard',['options/guard']).
 files('options/host_log',['options/host_log']).
 files('options/identity',['options/identity/authors','options/identity/birth','options/identity/sender_rights']).
@@ -160,6 +161,7 @@ part_setting(hold_seconds,typhon_saving,number,30,'Seconds for a network to come
 part_setting(idle,typhon_cells,number,60,'Seconds after which a cell that no agent uses ends','options/cell/cells').
 part_setting(kill_seconds,typhon_processes,number,10,'Seconds for a killed process to end','network/processes').
 part_setting(last_seconds,typhon_watches,number,2,'Seconds that unwatch/1 waits for earlier events','options/watch/watch_receiver').
+part_setting(letters,typhon_fleet,positive_integer,10000,'Letters that wait here until the engine answers','options/fleet/parking').
 part_setting(links,typhon_trail,positive_integer,32,'Links that are kept of the trail of an agent','options/trail/trail').
 part_setting(longest,typhon_ros_rosbridge,nonneg,4000000,'Characters of one message from a rosbridge server','bridges/ros/rosbridge').
 part_setting(memory,typhon_cells,positive_integer,1500000000,'Bytes of address space that a cell may have','options/cell/cell_process').
@@ -170,6 +172,9 @@ part_setting(offers,typhon_offers,positive_integer,100,'Offers of an agent','opt
 part_setting(order_seconds,typhon_processes,number,60,'Seconds for a process to answer an order','network/nodes').
 part_setting(outcome_length,typhon_fleet,positive_integer,20000,'Characters of an outcome with its results; longer ones are kept without results','options/fleet/registry').
 part_setting(outcomes,typhon_fleet,positive_integer,20000,'Ends of agents that a fleet keeps for each home, and a process until its fleet has them','options/fleet/registry').
+part_setting(parcel_bytes,typhon_fleet,positive_integer,16777216,'The longest agent or letter that is parked, as text','options/fleet/parking').
+part_setting(parked_bytes,typhon_fleet,positive_integer,268435456,'Bytes that are parked for a process','options/fleet/parking').
+part_setting(parked_items,typhon_fleet,positive_integer,10000,'Agents and letters that are parked for a process','options/fleet/parking').
 part_setting(patience,typhon_event_sender,number,30,'Seconds that a disconnected watching process has to answer','options/watch/event_sender').
 part_setting(patience,typhon_virtual,number,10,'Virtual time that stands still for so long is reported','options/virtual').
 part_setting(pause,typhon_quota_enforcer,between(0.0,1.0),0.8,'Agents that run for long where there are quotas pause for this part of the time while others run','options/quotas/quota_enforcer').
@@ -189,6 +194,7 @@ part_setting(ssh,typhon_children,atom,ssh,'The program that reaches other machin
 part_setting(start,typhon_cells,number,120,'Seconds in which a cell has to load its program','options/cell/cell_process').
 part_setting(start_seconds,typhon_processes,number,60,'Seconds for the processes of a network to start','network/processes').
 part_setting(stop_seconds,typhon_children,number,5,'Seconds for a child to end in order before it is killed','network/children').
+part_setting(sure_seconds,typhon_fleet,number,2,'Seconds until what an engine with fsync(everysec) has accepted counts as kept','options/fleet/parking').
 part_setting(traced,typhon_tracing,positive_integer,1000,'Agents whose traces are printed, the latest','options/trace/tracing').
 part_setting(virtual_events,typhon_watch_senders,positive_integer,1000000,'The same in virtual time, which runs ahead of all watches','options/watch/watch_senders').
 part_setting(watches,typhon_watch_senders,positive_integer,100,'Watches that another process may have here','options/watch/watch_senders').

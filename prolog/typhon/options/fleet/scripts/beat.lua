@@ -80,6 +80,13 @@ if now > tonumber(call('GET', p..'grace') or '0') then
   for _, d in ipairs(before('lease', now, 20)) do goes_away(d) end
 end
 
+-- agents that have waited long enough
+
+for _, id in ipairs(before('due', now, 20)) do
+  local a = parked(id)
+  if a then send_back(id, a, 'expired') else call('ZREM', p..'due', id) end
+end
+
 -- what was away for a week, and has nothing parked and no journal, is forgotten
 
 for _, d in ipairs(before('gone', now - 604800000, 4)) do
