@@ -344,8 +344,8 @@ unit_of_work(Goal) :-
 
 %!  after_unit(+Goal) is det.
 %
-%   While durable_on/0 holds: call the qualified Goal in this thread when the
-%   changes of this unit of work are queued; at once outside of one.
+%   While durable_on/0 holds: call the qualified Goal in this thread when
+%   the changes of this unit of work are queued; at once outside of one.
 
 %!  enqueue_changes is det.
 %

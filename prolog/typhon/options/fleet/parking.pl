@@ -81,7 +81,7 @@ typhon_transfer:parks(Transfer, Seconds) :-
     !,
     ( Seconds == inf -> Until = inf ; deadline(Seconds, Until) ),
     Ticket is random(1<<62),
-    scheduler_call(typhon_parking:park(Transfer, Until, Ticket)).
+    scheduler_call(typhon_parking:park(Transfer, Until, Ticket-0)).
 
 park(Transfer, Until, Ticket) :-
     catch(asked(Transfer, Until, Ticket, Answer), error(Formal, _),
@@ -94,9 +94,10 @@ is_outage(journal_unreachable(_, _)).
 is_outage(existence_error(_, _)).       % the journal or fleet ends
 
 %   asked(+Transfer, +Until, +Ticket, -Answer): Answer is kept(Fleet, Run), or
-%   why not.  What the agent has done before must be committed before.
+%   why not.  What the agent has done before must be committed before.  Ticket is
+%   N-1 if an engine has accepted it, and may have lost all since.
 
-asked(Transfer, Until, Ticket, Answer) :-
+asked(Transfer, Until, Ticket-Known, Answer) :-
     Transfer = transfer(Id, dest(Address, _, Endpoint), Hops),
     transfer_parcel(Transfer, Parcel),
     !,
@@ -108,8 +109,8 @@ asked(Transfer, Until, Ticket, Answer) :-
     ->  milliseconds(Until, Ttl),
         bounds(Most, Bytes),
         in_fleets(park,
-                  [ Endpoint, Address, Id, Hops, Ttl, From, Ticket, Most, Bytes,
-                    Text ],
+                  [ Endpoint, Address, Id, Hops, Ttl, From, Ticket, Known, Most,
+                    Bytes, Text ],
                   stranger, Answer)
     ;   Answer = full
     ).
@@ -150,14 +151,14 @@ in_fleets([Fleet|Fleets], Script, Args, No, Answer) :-
     ;   Answer = Answer1
     ).
 
-parked(kept(Fleet, Run), Transfer, Until, Ticket) :-
+parked(kept(Fleet, Run), Transfer, Until, Ticket-_) :-
     !,
     (   fleet_joined(Fleet, Options),
         option(fsync(always), Options, fsync(everysec))
     ->  is_parked(Transfer)
     ;   setting(typhon_fleet:sure_seconds, Seconds),
         arg(1, Transfer, Id),
-        alarm_in(Seconds, Id, parked(Fleet-Run, Transfer, Until, Ticket))
+        alarm_in(Seconds, Id, parked(Fleet-Run, Transfer, Until, Ticket-1))
     ).
 parked(unknown, Transfer, Until, Ticket) :-
     !,
@@ -214,10 +215,9 @@ typhon_mail:mail_kept(Formal, Id, Mail) :-
     ),
     format(atom(Name), 'letter~36r', [random(1<<90)]),
     durable_assertz(letter(Id, _, letter(Name, Formal, Mail))),
-    Send = typhon_parking:letters_sent(Id),
     (   durable_on
-    ->  after_unit(scheduler_call(Send))
-    ;   call(Send)
+    ->  after_unit(typhon_parking:letters_soon(Id))
+    ;   letters_sent(Id)
     ).
 
 :- durable(fleet_letter, Id, N, Letter, letter(Id, N, Letter)).
@@ -225,12 +225,15 @@ typhon_mail:mail_kept(Formal, Id, Mail) :-
 typhon_durable:go_on :-
     forall(letter(Id, _, _), send_later(Id)).
 
+letters_soon(Id) :-
+    scheduler_call(typhon_parking:letters_sent(Id)).
+
 send_later(Id) :-
     alarm_in(1, Id, parked_letters).
 
 typhon_scheduler:fire(Id, parked_letters) :-
     !,
-    scheduler_call(typhon_parking:letters_sent(Id)).
+    letters_soon(Id).
 
 typhon_scheduler:over(Id, parked_letters) :-
     \+ letter(Id, _, _).

@@ -6,7 +6,10 @@
 :- use_module('../../../lib/fixtures').
 :- use_module('../../../lib/peers').
 :- use_module('../../../lib/redis').
+:- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(debug), [assertion/1]).
+:- use_module(library(filesex),
+              [delete_directory_and_contents/1, directory_file_path/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
@@ -69,10 +72,137 @@ nothing_is_left(Redis) :-
     forall(member(Lines, [Keys,Parcels,Bytes,Others]),
            memberchk(Lines, [[""], [], ["0"], ["(integer) 0"]])).
 
-:- begin_tests(parking).
+parked_again(Redis, A, Robot, [Hops,E,_|Others], Parcel) :-
+    format(atom(Key), 'f:{lab}:park:~w', [E]),
+    redis_line(Redis, [hset, 'f:{lab}:parcels', A, Parcel], _),
+    redis_line(Redis, [xadd, Key, *, agent, Robot, id, A, why, ''], [Entry]),
+    atomics_to_string([Hops,'\n',E,'\n',Entry], Begin),
+    atomic_list_concat([Begin|Others], '\n', Value),
+    redis_line(Redis, [hset, 'f:{lab}:parked', A, Value], _).
 
-test(parked_agents_and_their_mail_arrive_once_and_in_order) :-
-    with_robot([fsync(always)], [], Redis, Robot, robot_returns(Redis, Robot)).
+kept_out(A) :-
+    catch(agent_send(A, hello), error(Formal, _), true),
+    assertion(nonvar(Formal)),
+    fleet_park_drop(lab, A),
+    wait_until(test_parking:parked([]), 20),
+    agent_send(A, last),
+    agent_result(A, _, 60).
+
+%   resident(-Redis, -Robot, -Agent, :Goal): Agent is on the robot,
+%   which keeps a journal, and the engine knows that.
+
+:- meta_predicate resident(-, -, -, 0).
+
+resident(Redis, Robot, A, Goal) :-
+    with_tmp_dir(Dir,
+        with_robot([fsync(always)], [journal(Dir)], Redis, Robot,
+                   ( visitor(Robot, 600, A),
+                     wait_until(agent_property(A, host(Robot)), 20),
+                     typhon_engine:engine_script(lab, where, [A,1,Robot], _),
+                     once(Goal) ))).
+
+%   journaled_mail(+Dir, -Got): all is sent before base, whose journal is at Dir,
+%   is killed, and before the robot is back.
+
+journaled_mail(Dir, Got) :-
+    with_robot([fsync(always)], [], Redis, Robot,
+               ( member_spec(Redis, base, [lease(1),fsync(always)],
+                             [journal(Dir)], Base),
+                 collector(C),
+                 with_more_peers([Base],
+                     ( peer_kill(robot),
+                       peer_agent(base,
+                                  [ (:- agent(a, [state([to/2])])),
+                                    (main :- to(H, C), move(H, [wait(600)]),
+                                             all(Ms), send(C, Ms)),
+                                    (all(Ms) :- receive(_-M),
+                                                ( M == last -> Ms = []
+                                                ; Ms = [M|More], all(More) )) ],
+                                  [to(Robot,C)], A),
+                       wait_until(test_parking:parked([A]), 20),
+                       wait_until(\+ peer_do(base, agent_here(A)), 20),
+                       peer_agent(base, [ (:- agent(b, [state([to/1])])),
+                                          (main :- to(A), send(A, 1),
+                                                   send(A, 2), send(A, 3),
+                                                   send(A, last)) ],
+                                  [to(A)], _),
+                       wait_until(test_parking:all_sent(Redis), 60),
+                       peer_kill(base),
+                       peer_restart(robot),
+                       wait_until(test_parking:nothing_is_left(Redis), 30),
+                       wait_until(agent_property(C, mailbox([_])), 30),
+                       agent_send(C, go),
+                       agent_send(C, last),
+                       agent_result(C, Got0, 30),
+                       findall(G, member(G, Got0), Got) )) )).
+
+%   All four messages are in letters of the engine.
+
+all_sent(Redis) :-
+    redis_line(Redis, [keys, 'f:{lab}:park:*'], [Key]),
+    redis_line(Redis, [xrange, Key, -, +], Lines),
+    aggregate_all(count, ( member(Line, Lines),
+                           sub_string(Line, _, _, _, "mail("),
+                           sub_string(Line, _, _, _, ",last)") ), 1).
+
+collector(C) :-
+    create([ (main :- receive(user-go), all(Ms), result(Ms)),
+             (all(Ms) :- receive(_-M),
+                         ( M == last -> Ms = [] ; Ms = [M|More], all(More) )) ],
+           C, [host(alpha)]).
+
+letters(Redis, Robot, Count) :-
+    atomic_list_concat([_,Endpoint], @, Robot),
+    atom_concat('f:{lab}:park:', Endpoint, Key),
+    redis_line(Redis, [xlen, Key], [Text]),
+    number_string(Count, Text).
+
+:- meta_predicate with_more_peers(+, 0).
+
+with_more_peers([Spec], Goal) :-
+    test_peers:start(Spec),
+    once(Goal).
+
+%   base(+Base, +Options, +Wait, -Redis, -Robot, :Goal, -Got): an agent of the process
+%   base is parked for the robot; Got are the messages that it sends.
+
+:- meta_predicate base(+, +, +, -, -, 0, ?).
+
+base(Base, Options, Wait, Redis, Robot, Goal, Got) :-
+    with_robot([fsync(always)], Options, Redis, Robot,
+               ( member_spec(Redis, base, [lease(1),fsync(always)], Base, Spec),
+                 create([ (main :- all([], Ms), result(Ms)),
+                          (all(Ms0, Ms) :-
+                               receive(_-M),
+                               ( M == last -> Ms = Ms0
+                               ; append(Ms0, [M], Ms1), all(Ms1, Ms) )) ],
+                        Collector, [host(alpha)]),
+                 with_more_peers([Spec],
+                     ( peer_kill(robot),
+                       peer_agent(base,
+                                  [ (:- agent(a, [state([to/3])])),
+                                    (main :- to(H, S, C),
+                                             catch(( move(H, [wait(S)]), R = none ),
+                                                   error(R, _), true),
+                                             here(Here),
+                                             send(C, R-Here),
+                                             receive(_)) ],
+                                  [to(Robot,Wait,Collector)], Agent),
+                       await_parked([Agent]),
+                       wait_until(\+ peer_do(base, agent_here(Agent)), 20),
+                       once(Goal),
+                       wait_until(test_parking:nothing_is_left(Redis), 30),
+                       agent_send(Collector, last),
+                       agent_result(Collector, Got, 60) )) )).
+
+arrived(Peer) :-
+    peer_do(Peer, ( agents_here([A]),
+                    wait_until(agent_property(A, mailbox([])), 20) )),
+    wait_until(peer_do(Peer, ( agents_here([B]),
+                               agent_property(B, goals([receive(_)|_])) )), 20).
+
+returns(Base) :-
+    fleet_parked(lab, [parked(_, Base, _, inf)]).
 
 robot_returns(Redis, Robot) :-
     peer_kill(robot),
@@ -88,6 +218,11 @@ robot_returns(Redis, Robot) :-
     assertion(forall(member(R, Results), R == [none,Robot,1,1,2,3])),
     assertion(length(Results, 20)),
     wait_until(test_parking:nothing_is_left(Redis), 10).
+
+:- begin_tests(parking).
+
+test(parked_agents_and_their_mail_arrive_once_and_in_order) :-
+    with_robot([fsync(always)], [], Redis, Robot, robot_returns(Redis, Robot)).
 
 test(agent_goes_on_where_it_was_when_the_time_is_over, Result
      == [host_unreachable(Robot),Alpha,2,hello]) :-
@@ -149,4 +284,190 @@ test(agent_of_no_fleet_does_not_wait,
                  agent_send(A, last),
                  agent_result(A, Result, 60) )).
 
+test(agent_that_came_before_is_not_let_in_again, Result == [none,Robot,1]) :-
+    with_robot([fsync(always)], [], Redis, Robot,
+               ( peer_kill(robot),
+                 visitor(Robot, 600, A),
+                 gone([A]),
+                 redis_line(Redis, [hget, 'f:{lab}:parked', A], Parked),
+                 redis_line(Redis, [hget, 'f:{lab}:parcels', A], [Parcel]),
+                 peer_restart(robot),
+                 wait_until(test_parking:nothing_is_left(Redis), 20),
+                 parked_again(Redis, A, Robot, Parked, Parcel),
+                 wait_until(test_parking:nothing_is_left(Redis), 20),
+                 peer_do(robot, aggregate_all(count,
+                                              typhon_agents:agent_on(A, _), 1)),
+                 agent_send(A, last),
+                 agent_result(A, Result, 60) )).
+
+test(agent_waits_until_its_host_is_started, Result == [none,Arm,1,hello]) :-
+    with_robot([fsync(always)], [], Redis, Robot,
+               ( peer_do(robot, host_start(arm, [fleet(lab)])),
+                 atomic_list_concat([_,Endpoint], @, Robot),
+                 atomic_list_concat([arm,Endpoint], @, Arm),
+                 peer_kill(robot),
+                 visitor(Arm, 600, A),
+                 visitor(Robot, 600, B),
+                 gone([A,B]),
+                 agent_send(A, hello),
+                 peer_restart(robot),
+                 agent_send(B, last),
+                 results([B], [_]),
+                 parked([A]),
+                 peer_do(robot, host_start(arm, [fleet(lab)])),
+                 wait_until(test_parking:nothing_is_left(Redis), 20),
+                 agent_send(A, last),
+                 agent_result(A, Result, 60) )).
+
+test(beyond_the_bounds_no_agent_waits,
+     [ forall(member(Bounds, [ [typhon_fleet:parked_items=1],
+                               [typhon_fleet:parked_bytes=10],
+                               [typhon_fleet:parcel_bytes=10] ])),
+       Errors == [host_unreachable(Robot)] ]) :-
+    with_robot([fsync(always)], [], _, Robot,
+               with_settings(Bounds,
+                   ( peer_kill(robot),
+                     visitor(Robot, 600, A),
+                     ( Bounds = [_=1] -> gone([A]) ; true ),
+                     visitor(Robot, 600, B),
+                     agent_send(B, last),
+                     agent_result(B, [Error|_], 60),
+                     Errors = [Error],
+                     ( Bounds = [_=1] -> kept_out(A) ; true ) ))).
+
 :- end_tests(parking).
+
+:- begin_tests(parking_mail).
+
+test(mail_for_an_agent_whose_host_is_away_arrives_in_order,
+     Result == [none,Robot,1,1,2,3]) :-
+    resident(Redis, Robot, A,
+             ( peer_kill(robot),
+               send_all([A], [1,2,3,last]),
+               peer_restart(robot),
+               agent_result(A, Result, 60),
+               wait_until(test_parking:nothing_is_left(Redis), 10) )).
+
+test(mail_of_a_process_with_a_journal_arrives_in_order,
+     Result == [[1,2,3]]) :-
+    with_tmp_dir(Dir, journaled_mail(Dir, Result)).
+
+test(mail_is_kept_while_the_engine_does_not_answer,
+     Result == [none,Robot,1,1,2,3]) :-
+    with_robot([fsync(always)], [], Redis, Robot,
+               ( peer_kill(robot),
+                 visitor(Robot, 600, A),
+                 gone([A]),
+                 agent_send(A, 1),
+                 redis_signal(Redis, stop),
+                 agent_send(A, 2),
+                 agent_send(A, 3),
+                 redis_signal(Redis, cont),
+                 wait_until(test_parking:letters(Redis, Robot, 4), 30),
+                 agent_send(A, last),
+                 peer_restart(robot),
+                 agent_result(A, Result, 60) )).
+
+test(mail_for_an_agent_that_the_engine_does_not_know_is_an_error,
+     error(host_unreachable(_))) :-
+    free_port(Port),
+    format(atom(Id), 'none.b7b4qcym.1@nowhere@127.0.0.1:~d', [Port]),
+    with_fleet([], _, [alpha-[]], agent_send(Id, one)).
+
+test(mail_for_an_agent_that_ended_elsewhere_is_an_error,
+     error(host_unreachable(_))) :-
+    free_port(Port),
+    format(atom(Id), 'none.b7b4qcym.1@nowhere@127.0.0.1:~d', [Port]),
+    with_fleet([], _, [alpha-[]],
+               ( typhon_engine:engine_script(lab, where, [Id,1,'b@x:1'], _),
+                 typhon_engine:engine_script(lab, ends, [9,Id,done], _),
+                 agent_send(Id, one) )).
+
+:- end_tests(parking_mail).
+
+:- begin_tests(parking_faults).
+
+%   Of an engine that may lose its last second.
+
+test(agent_is_parked_again_in_an_engine_that_came_back_empty,
+     Result == [none,Robot,1]) :-
+    with_robot([], [], Redis, Robot,
+               with_settings([typhon_fleet:sure_seconds=4],
+                   ( peer_kill(robot),
+                     visitor(Robot, 600, A),
+                     await_parked([A]),
+                     assertion(typhon_agents:agent_on(A, _)),
+                     redis_signal(Redis, kill),
+                     Redis = redis(_, Dir, _),
+                     directory_file_path(Dir, appendonlydir, Data),
+                     delete_directory_and_contents(Data),
+                     redis_restart(Redis),
+                     gone([A]),
+                     peer_restart(robot),
+                     agent_send(A, last),
+                     agent_result(A, Result, 60) ))).
+
+test(agent_waits_for_an_engine_that_does_not_answer,
+     [ forall(member(Away-Back, [stop-cont, kill-start])),
+       Result == [none,Robot,1] ]) :-
+    with_robot([], [], Redis, Robot,
+               ( peer_kill(robot),
+                 redis_signal(Redis, Away),
+                 visitor(Robot, 600, A),
+                 agent_send(A, last),
+                 wait_until(typhon_engine:down(lab, _, _), 20),
+                 ( Back == cont -> redis_signal(Redis, cont)
+                 ; redis_restart(Redis) ),
+                 gone([A]),
+                 peer_restart(robot),
+                 agent_result(A, Result, 60) )).
+
+test(time_that_is_over_while_the_engine_is_suspended_ends_the_wait_once,
+     Result == [host_unreachable(Robot),Alpha]) :-
+    with_robot([], [], Redis, Robot,
+               ( peer_kill(robot),
+                 address(alpha, Alpha),
+                 redis_signal(Redis, stop),
+                 visitor(Robot, 0.5, A),
+                 agent_send(A, last),
+                 wait_until(typhon_engine:down(lab, _, _), 20),
+                 redis_signal(Redis, cont),
+                 agent_result(A, [Error,Here|_], 60),
+                 Result = [Error,Here],
+                 wait_until(test_parking:nothing_is_left(Redis), 20) )).
+
+test(agent_arrives_though_its_source_was_killed, Got == [none-Robot]) :-
+    base([], [], 600, Redis, Robot,
+         ( peer_kill(base),
+           peer_restart(robot),
+           wait_until(test_parking:nothing_is_left(Redis), 30),
+           arrived(robot) ),
+         Got).
+
+test(agent_whose_time_is_over_waits_for_its_source,
+     Got == [host_unreachable(Robot)-Base]) :-
+    base([], [], 3, _, Robot,
+         ( peer_host(base, Base),
+           peer_kill(base),
+           wait_until(test_parking:returns(Base), 30),
+           peer_restart(base),
+           wait_until(peer_do(base, agents_here([_])), 30),
+           arrived(base) ),
+         Got).
+
+test(agent_arrives_once_though_both_processes_were_killed,
+     Got == [none-Robot]) :-
+    with_tmp_dir(Dir1, with_tmp_dir(Dir2,
+        base([journal(Dir1)], [journal(Dir2)], 600, Redis, Robot,
+             ( peer_kill(base),
+               peer_restart(robot),
+               wait_until(test_parking:nothing_is_left(Redis), 30),
+               arrived(robot),
+               peer_kill(robot),
+               peer_restart(base),
+               peer_restart(robot),
+               arrived(robot),
+               assertion(peer_do(base, agents_here([]))) ),
+             Got))).
+
+:- end_tests(parking_faults).

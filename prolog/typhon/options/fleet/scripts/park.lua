@@ -1,10 +1,10 @@
--- park E to id hops ttl from ticket most most_bytes text
+-- park E to id hops ttl from ticket known most most_bytes text
 -- Keep the agent for the process at E: 'ok', also if that has taken it. Or
--- 'stranger': E is in no fleet, 'late', 'full'; then the same ticket is never
+-- 'stranger': with known = 0, E is in no fleet, 'late', 'full'; then the same ticket is never
 -- accepted, because this may be executed long after it was sent.
 
 local e, to, id, hops = ARGV[2], ARGV[3], ARGV[4], tonumber(ARGV[5])
-local ttl, from, ticket, text = ARGV[6], ARGV[7], p..'not:'..ARGV[8], ARGV[11]
+local ttl, from, ticket, text = ARGV[6], ARGV[7], p..'not:'..ARGV[8], ARGV[12]
 local now, a = clock(), parked(id)
 
 if tonumber(call('GET', p..'had:'..id) or '-1') >= hops then return 'ok' end
@@ -16,10 +16,10 @@ local function refused(why)
 end
 
 if call('EXISTS', ticket) == 1 then return 'late' end
-if call('EXISTS', p..'p:'..e) == 0 then return refused('stranger') end
+if ARGV[9] == '0' and call('EXISTS', p..'p:'..e) == 0 then return refused('stranger') end
 if ttl ~= 'inf' and tonumber(ttl) <= 0 then return refused('late') end
-if call('XLEN', p..'park:'..e) >= tonumber(ARGV[9])
-   or tonumber(call('HGET', p..'bytes', e) or '0') + #text > tonumber(ARGV[10]) then
+if call('XLEN', p..'park:'..e) >= tonumber(ARGV[10])
+   or tonumber(call('HGET', p..'bytes', e) or '0') + #text > tonumber(ARGV[11]) then
   return refused('full')
 end
 if a then forget_agent(id, a) end
