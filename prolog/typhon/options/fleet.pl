@@ -138,12 +138,12 @@ fleet_drain(Host, Options) :-
 
 %!  fleet_parked(+Fleet, -Parked:list) is det.
 %
-%   The agents that are parked in the engine of Fleet, parked(Agent, Host, Since,
-%   Until), the oldest first.  They moved to the address Host with the option
-%   wait(Seconds) when it could not be reached, and go on when it is back, or
-%   where they were at Until, `inf` for never; or Host is where they were, and they
-%   return there.  Since and Until are as in get_time/1, by the clock of the
-%   engine.
+%   The agents that are parked in the engine of Fleet, the oldest first:
+%   parked(Agent, Host, Since, Until).  They moved to the address Host with the
+%   option wait(Seconds) when it could not be reached.  They go on there when it
+%   is back, or where they were at Until, `inf` for never; or Host is where they
+%   were, and they return.  Since and Until are as in get_time/1, by the clock of
+%   the engine.
 %
 %   @error existence_error(fleet, Fleet), resource_error(fleet(Fleet))
 

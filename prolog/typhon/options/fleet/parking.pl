@@ -24,7 +24,9 @@
 :- use_module('../../kernel/wire',
               [endpoint_address/1, endpoint_call/5, mobile_term/1]).
 :- use_module(engine, [engine_run_id/2, engine_script/4]).
-:- use_module(members, [fleet_joined/2, fleet_member/4, must_be_fleet/1]).
+:- use_module(members,
+              [ fleet_host/3, fleet_joined/2, fleet_member/4,
+                must_be_fleet/1 ]).
 
 /** <module> Agents and messages that wait in the engine for a host
 
@@ -68,7 +70,9 @@ time takes what is parked, and one sends the letters for an agent.
 
 :- dynamic
     busy/1,                     % taking(Fleet) or letters(Id): a thread is
-    letter/3.                   % Id, N, letter(Name, Formal, Mail): to be parked
+    letter/3,                   % Id, N, letter(Name, Formal, Mail): to park
+    sent/3.                     % Name, Fleet-Run, Until: parked in an engine
+                                % that may lose it until then
 
 typhon_on_demand:joins(fleet, joined).
 
@@ -77,7 +81,7 @@ typhon_on_demand:joins(fleet, joined).
                 *******************************/
 
 typhon_transfer:parks(Transfer, Seconds) :-
-    fleet_joined(_, _),
+    fleet_host(_, _, _),                % else it could not return
     !,
     ( Seconds == inf -> Until = inf ; deadline(Seconds, Until) ),
     Ticket is random(1<<62),
@@ -94,8 +98,8 @@ is_outage(journal_unreachable(_, _)).
 is_outage(existence_error(_, _)).       % the journal or fleet ends
 
 %   asked(+Transfer, +Until, +Ticket, -Answer): Answer is kept(Fleet, Run), or
-%   why not.  What the agent has done before must be committed before.  Ticket is
-%   N-1 if an engine has accepted it, and may have lost all since.
+%   why not.  What the agent has done before must be committed before.  Ticket
+%   is N-1 if an engine has accepted it, and may have lost all since.
 
 asked(Transfer, Until, Ticket-Known, Answer) :-
     Transfer = transfer(Id, dest(Address, _, Endpoint), Hops),
@@ -131,8 +135,8 @@ milliseconds(Until, Ttl) :-
     monotonic_time(Now),
     Ttl is max(0, ceiling(1000*(Until-Now))).
 
-%   in_fleets(+Script, +Args, +No, -Answer): of the first fleet whose engine does
-%   not answer No.
+%   in_fleets(+Script, +Args, +No, -Answer): of the first fleet whose engine
+%   does not answer No.
 
 in_fleets(Script, Args, No, Answer) :-
     findall(Fleet, fleet_joined(Fleet, _), Fleets),
@@ -153,8 +157,7 @@ in_fleets([Fleet|Fleets], Script, Args, No, Answer) :-
 
 parked(kept(Fleet, Run), Transfer, Until, Ticket-_) :-
     !,
-    (   fleet_joined(Fleet, Options),
-        option(fsync(always), Options, fsync(everysec))
+    (   confirms_all(Fleet)
     ->  is_parked(Transfer)
     ;   setting(typhon_fleet:sure_seconds, Seconds),
         arg(1, Transfer, Id),
@@ -170,6 +173,10 @@ parked(given_up, Transfer, _, _) :-
 parked(_, Transfer, _, _) :-
     arg(2, Transfer, dest(Address, _, _)),
     transfer_stays(Transfer, host_unreachable(Address)).
+
+confirms_all(Fleet) :-
+    fleet_joined(Fleet, Options),
+    option(fsync(always), Options, fsync(everysec)).
 
 typhon_scheduler:fire(_, parked(Kept, Transfer, Until, Ticket)) :-
     !,
@@ -242,30 +249,69 @@ typhon_scheduler:over(Id, parked_letters) :-
 
 letters_sent(Id) :-
     (   letter(Id, _, _),
-        alone(letters(Id), typhon_parking:send_letters(Id, Answer))
+        alone(letters(Id), typhon_parking:letters_sent(Id, Answer))
     ->  (   Answer == unknown
         ->  send_later(Id)
-        ;   letters_sent(Id)
+        ;   letter(Id, _, letter(Name, _, _)),
+            \+ sent(Name, _, _)
+        ->  letters_sent(Id)
+        ;   true
         )
     ;   true
     ).
 
-send_letters(Id, Answer) :-
-    (   letter(Id, N, letter(Name, Formal, Mail))
+letters_sent(Id, Answer) :-
+    (   catch(findall(Fleet-Run, ( fleet_joined(Fleet, _),
+                                   engine_run_id(Fleet, Run) ),
+                      Runs),
+              error(_, _), fail)
+    ->  forget_sure(Id, Runs),
+        send_letters(Id, Runs, Answer)
+    ;   Answer = unknown
+    ).
+
+forget_sure(Id, Runs) :-
+    monotonic_time(Now),
+    forall(( letter(Id, N, letter(Name, Formal, Mail)),
+             sent(Name, Run, Until),
+             Until =< Now,
+             memberchk(Run, Runs) ),
+           letter_over(Id, N, letter(Name, Formal, Mail))).
+
+%   All that an engine may have lost since it was started again is sent again, in
+%   order.
+
+send_letters(Id, Runs, Answer) :-
+    (   letter(Id, N, Letter),
+        Letter = letter(Name, Formal, Mail),
+        \+ ( sent(Name, Run, _), memberchk(Run, Runs) )
     ->  term_text(Mail, Text),
         letter_asked(Id, Name, Text, Answer0),
         (   Answer0 == unknown
         ->  Answer = unknown
-        ;   unit_of_work(letter_over(Answer0, Id, N, Name, Formal, Mail)),
-            send_letters(Id, Answer)
+        ;   letter_sent(Answer0, Id, N, Letter, Gone),
+            ( Gone == lost -> mail_lost(Formal, Id, Mail) ; true ),
+            send_letters(Id, Runs, Answer)
         )
     ;   Answer = none
     ).
 
-letter_over(Answer, Id, N, Name, Formal, Mail) :-
+letter_sent(kept(Fleet, Run), Id, _, letter(Name, _, _), kept) :-
+    \+ confirms_all(Fleet),
+    !,
+    setting(typhon_fleet:sure_seconds, Seconds),
+    deadline(Seconds, Until),
+    retractall(sent(Name, _, _)),
+    assertz(sent(Name, Fleet-Run, Until)),
+    alarm_in(Seconds, Id, parked_letters).
+letter_sent(Answer, Id, N, Letter, Gone) :-
+    letter_over(Id, N, Letter),
+    ( Answer = kept(_, _) -> Gone = kept ; Gone = lost ).
+
+letter_over(Id, N, letter(Name, _, _)) :-
     durable_drop(fleet_letter, Id, N),
-    retractall(letter(Id, _, letter(Name, _, _))),
-    ( Answer = kept(_, _) -> true ; mail_lost(Formal, Id, Mail) ).
+    retractall(sent(Name, _, _)),
+    retractall(letter(Id, _, letter(Name, _, _))).
 
 letter_asked(Id, Name, Text, Answer) :-
     bounds(Most, Bytes),
@@ -297,11 +343,17 @@ typhon_members:beaten(Fleet, Parked, _) :-
 take(Fleet) :-
     (   durable_restores
     ->  true
-    ;   ignore(catch(alone(taking(Fleet), typhon_parking:take(Fleet, '0-0', [])),
-                     error(Formal, Context),
-                     report(warning, parked, Fleet,
-                            typhon(raised(error(Formal, Context))))))
+    ;   ignore(reporting(Fleet, alone(taking(Fleet),
+                                      typhon_parking:take(Fleet, '0-0', []))))
     ).
+
+:- meta_predicate reporting(+, 0).
+
+reporting(What, Goal) :-
+    catch(Goal, error(Formal, Context),
+          ( report(warning, parked, What,
+                   typhon(raised(error(Formal, Context)))),
+            fail )).
 
 take(Fleet, After, Done) :-
     fleet_member(Fleet, Endpoint, Token, _),
@@ -311,8 +363,9 @@ take(Fleet, After, Done) :-
     engine_script(Fleet, take, Args, [Last,Rows]),
     (   Last == ""
     ->  true
-    ;   findall(Entry, ( member([Entry|Row], Rows),
-                         taken(Row, Fleet, Token) ),
+    ;   findall(Entry,
+                ( member([Entry|Row], Rows),
+                  reporting(Fleet, typhon_parking:taken(Row, Fleet, Token)) ),
                 Entries),
         sync_changes,
         take(Fleet, Last, Entries)
@@ -326,7 +379,7 @@ taken(["mail",Id0,Name0,Text], _, _) :-
     atom_string(Name, Name0),
     (   readable(Text, Mail),
         is_list(Mail),
-        forall(member(One, Mail), subsumes_term(mail(_, _, _), One))
+        forall(member(One, Mail), is_mail(One))
     ->  mail_admit(Name, Id, Mail)
     ;   unreadable(Id)
     ).
@@ -341,6 +394,11 @@ taken(["agent",Id0,To0,Why,Text], Fleet, Token) :-
         admitted(Answer, To, Fleet, Id, Token)
     ;   unreadable(Id)
     ).
+
+is_mail(Mail) :-
+    subsumes_term(mail(_, _, _), Mail),
+    arg(1, Mail, Origin),
+    atom(Origin).
 
 readable(Text, Term) :-
     fits(Text),
@@ -357,8 +415,8 @@ unreadable(Id) :-
     report(error, parked, Id,
            typhon(raised(error(syntax_error(parcel), _)))).
 
-%   let_in(+Why, +Parcel0, -Peer, -Parcel): Why is "" of an agent that comes, else
-%   the agent returns.
+%   let_in(+Why, +Parcel0, -Peer, -Parcel): Why is "" of an agent that comes;
+%   others return.
 
 let_in("", Parcel, Peer, Parcel) :-
     !,
@@ -435,8 +493,8 @@ parked_send(Fleet, Id) :-
     ->  true
     ;   existence_error(parked_agent, Id)
     ),
-    catch(endpoint_call(Endpoint, hop, hop(Name, Image, Program), answer(Answer),
-                        10),
+    catch(endpoint_call(Endpoint, hop, hop(Name, Image, Program),
+                        answer(Answer), 10),
           error(unreachable(_), _), Answer = unreachable),
     sent(Answer, Fleet, Id, Token, To).
 

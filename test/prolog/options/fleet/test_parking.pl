@@ -12,6 +12,7 @@
               [delete_directory_and_contents/1, directory_file_path/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
+:- use_module(library(process), [process_create/3]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/options/fleet),
               [fleet_park_drop/2, fleet_park_send/2]).
@@ -28,8 +29,8 @@ with_robot(Joins, Options, Redis, Robot, Goal) :-
                ( member_spec(Redis, robot, [lease(1)|Joins], Options, Spec),
                  with_peers([Spec], ( peer_host(robot, Robot), once(Goal) )) )).
 
-%   visitor(+Host, +Wait, -Agent): its result is the error of its move, or `none`,
-%   where it is then, its hops, and what it got until `last`.
+%   visitor(+Host, +Wait, -Agent): its result is the error of its move, or
+%   `none`, where it is then, its hops, and what it got until `last`.
 
 visitor(Host, Wait, Agent) :-
     create([ (main :- catch(( move(Host, [wait(Wait)]), R = none ),
@@ -101,8 +102,8 @@ resident(Redis, Robot, A, Goal) :-
                      typhon_engine:engine_script(lab, where, [A,1,Robot], _),
                      once(Goal) ))).
 
-%   journaled_mail(+Dir, -Got): all is sent before base, whose journal is at Dir,
-%   is killed, and before the robot is back.
+%   journaled_mail(+Dir, -Got): all is sent before base, whose journal is at
+%   Dir, is killed, and before the robot is back.
 
 journaled_mail(Dir, Got) :-
     with_robot([fsync(always)], [], Redis, Robot,
@@ -163,8 +164,8 @@ with_more_peers([Spec], Goal) :-
     test_peers:start(Spec),
     once(Goal).
 
-%   base(+Base, +Options, +Wait, -Redis, -Robot, :Goal, -Got): an agent of the process
-%   base is parked for the robot; Got are the messages that it sends.
+%   base(+Base, +Options, +Wait, -Redis, -Robot, :Goal, -Got): an agent of the
+%   process base is parked for the robot; Got are the messages that it sends.
 
 :- meta_predicate base(+, +, +, -, -, 0, ?).
 
@@ -182,7 +183,8 @@ base(Base, Options, Wait, Redis, Robot, Goal, Got) :-
                        peer_agent(base,
                                   [ (:- agent(a, [state([to/3])])),
                                     (main :- to(H, S, C),
-                                             catch(( move(H, [wait(S)]), R = none ),
+                                             catch(( move(H, [wait(S)]),
+                                                     R = none ),
                                                    error(R, _), true),
                                              here(Here),
                                              send(C, R-Here),
@@ -218,6 +220,22 @@ robot_returns(Redis, Robot) :-
     assertion(forall(member(R, Results), R == [none,Robot,1,1,2,3])),
     assertion(length(Results, 20)),
     wait_until(test_parking:nothing_is_left(Redis), 10).
+
+%   forgets(+Redis, :Goal): the engine is started again without what it has stored
+%   while Goal was called.
+
+:- meta_predicate forgets(+, 0).
+
+forgets(Redis, Goal) :-
+    Redis = redis(_, Dir, _),
+    directory_file_path(Dir, appendonlydir, Data),
+    directory_file_path(Dir, before, Before),
+    process_create(path(cp), ['-r', Data, Before], []),
+    once(Goal),
+    redis_signal(Redis, kill),
+    delete_directory_and_contents(Data),
+    rename_file(Before, Data),
+    redis_restart(Redis).
 
 :- begin_tests(parking).
 
@@ -382,6 +400,20 @@ test(mail_for_an_agent_that_ended_elsewhere_is_an_error,
                ( typhon_engine:engine_script(lab, where, [Id,1,'b@x:1'], _),
                  typhon_engine:engine_script(lab, ends, [9,Id,done], _),
                  agent_send(Id, one) )).
+
+test(letters_that_an_engine_has_lost_are_sent_again,
+     Result == [none,Robot,1,1,2,3]) :-
+    with_robot([], [], Redis, Robot,
+               ( peer_kill(robot),
+                 visitor(Robot, 600, A),
+                 gone([A]),
+                 with_settings([typhon_fleet:sure_seconds=4],
+                               ( forgets(Redis, send_all([A], [1,2])),
+                                 send_all([A], [3,last]),
+                                 wait_until(test_parking:letters(Redis, Robot, 5), 30) )),
+                 wait_until(\+ typhon_parking:letter(A, _, _), 30),
+                 peer_restart(robot),
+                 agent_result(A, Result, 60) )).
 
 :- end_tests(parking_mail).
 

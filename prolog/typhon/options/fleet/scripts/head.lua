@@ -15,8 +15,8 @@
 --   events    stream  what, address; the last 10,000
 --   park:E    stream  agents and letters that wait for the process at E:
 --                     agent address id I why W, or mail name id I text T
---   parked    hash    id -> hops, E, entry in its stream, when it goes back, the
---                     address that it left, where it waits to go, since when
+--   parked    hash    id -> hops, E, entry in its stream, when it goes back,
+--                     the address that it left, where it waits to go, since when
 --   parcels   hash    id -> text of a parked agent
 --   due       zset    id -> when it goes back
 --   claimed   hash    id -> token of a process that may have let it in
@@ -92,7 +92,8 @@ local function parked(id)
 end
 
 local function put_agent(id, a, why)
-  a.entry = call('XADD', p..'park:'..a.e, '*', 'agent', a.to, 'id', id, 'why', why)
+  a.entry = call('XADD', p..'park:'..a.e, '*', 'agent', a.to, 'id', id,
+                 'why', why)
   call('HSET', p..'parked', id, table.concat(
     {a.hops, a.e, a.entry, a.till, a.from, a.to, a.since}, '\n'))
   call('HINCRBY', p..'bytes', a.e, call('HSTRLEN', p..'parcels', id))
