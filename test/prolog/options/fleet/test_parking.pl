@@ -476,6 +476,25 @@ test(agent_arrives_though_its_source_was_killed, Got == [none-Robot]) :-
            arrived(robot) ),
          Got).
 
+test(home_knows_where_an_agent_is_parked,
+     Outcome-Result == timeout-[Robot,1]) :-
+    with_robot([fsync(always)], [], Redis, Robot,
+               ( member_spec(Redis, base, [lease(1),fsync(always)], [], Spec),
+                 with_more_peers([Spec],
+                     ( peer_kill(robot),
+                       peer_host(base, Base),
+                       create([ (main :- move(Base), move(Robot, [wait(600)]),
+                                         here(Here), receive(_-M),
+                                         result([Here,M])) ],
+                              A, [host(alpha)]),
+                       wait_until(test_parking:parked([A]), 20),
+                       wait_until(typhon_travel:whereabouts(A, Robot), 20),
+                       peer_kill(base),
+                       agent_join(A, Outcome, 0.5),
+                       agent_send(A, 1),
+                       peer_restart(robot),
+                       agent_result(A, Result, 60) )) )).
+
 test(agent_whose_time_is_over_waits_for_its_source,
      Got == [host_unreachable(Robot)-Base]) :-
     base([], [], 3, _, Robot,
