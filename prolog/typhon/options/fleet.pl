@@ -8,7 +8,12 @@
             fleet_drain/2,              % +Host, +Options
             fleet_parked/2,             % +Fleet, -Parked
             fleet_park_drop/2,          % +Fleet, +Agent
-            fleet_park_send/2           % +Fleet, +Agent
+            fleet_park_send/2,          % +Fleet, +Agent
+            work_put/3,                 % +Fleet, +Queue, +Tasks
+            work_take/4,                % +Fleet, +Queue, +Worker, -Work
+            work_keep/4,                % +Fleet, +Queue, +Worker, +Work
+            work_done/4,                % +Fleet, +Queue, +Work, +Result
+            work_results/3              % +Fleet, +Queue, -Results
           ]).
 :- use_module(library(error), [must_be/2]).
 :- autoload('fleet/drain', [drain_host/2]).
@@ -18,6 +23,9 @@
 :- autoload('fleet/parking',
             [parked_drop/2, parked_in_fleet/2, parked_send/2]).
 :- autoload('fleet/tags', [hosts_of_fleet/3]).
+:- autoload('fleet/work',
+            [ done_work/4, keep_work/4, put_work/3, results_of_work/3,
+              take_work/4 ]).
 
 /** <module> Fleets: hosts on many machines, which come, vanish and come back
 
@@ -166,3 +174,50 @@ fleet_park_drop(Fleet, Agent) :-
 
 fleet_park_send(Fleet, Agent) :-
     parked_send(Fleet, Agent).
+
+                /*******************************
+                *             WORK             *
+                *******************************/
+
+%!  work_put(+Fleet, +Queue:atom, +Tasks:list) is det.
+%
+%   Queue has Tasks, ground terms with the numbers 1, 2, ... as of now; numbers
+%   that it has or had already are left out.  So all workers may put the same
+%   list.  The engine forgets Queue a week after its last use.
+%
+%   @error existence_error(fleet, Fleet), resource_error(fleet(Fleet))
+
+work_put(Fleet, Queue, Tasks) :-
+    put_work(Fleet, Queue, Tasks).
+
+%!  work_take(+Fleet, +Queue:atom, +Worker, -Work) is semidet.
+%
+%   Work is work(Entry, N, Task) if Worker, an atomic value, is to do the Task
+%   with the number N; `none` if others have all tasks that are left.  Fails if
+%   there are none.  A worker that neither ends its Task nor keeps it within
+%   five seconds, or so many as the setting typhon_fleet:work_seconds says,
+%   loses it to another.
+
+work_take(Fleet, Queue, Worker, Work) :-
+    take_work(Fleet, Queue, Worker, Work).
+
+%!  work_keep(+Fleet, +Queue:atom, +Worker, +Work) is semidet.
+%
+%   Worker is still busy with Work.  Fails if another worker has it.
+
+work_keep(Fleet, Queue, Worker, Work) :-
+    keep_work(Fleet, Queue, Worker, Work).
+
+%!  work_done(+Fleet, +Queue:atom, +Work, +Result) is det.
+%
+%   Work is done.  Of several results the first counts.
+
+work_done(Fleet, Queue, Work, Result) :-
+    done_work(Fleet, Queue, Work, Result).
+
+%!  work_results(+Fleet, +Queue:atom, -Results:list) is det.
+%
+%   Results are pairs N-Result, in the order of the tasks that are done.
+
+work_results(Fleet, Queue, Results) :-
+    results_of_work(Fleet, Queue, Results).

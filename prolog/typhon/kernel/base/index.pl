@@ -198,3 +198,4 @@ part_setting(sure_seconds,typhon_fleet,number,2,'Seconds until what an engine wi
 part_setting(traced,typhon_tracing,positive_integer,1000,'Agents whose traces are printed, the latest','options/trace/tracing').
 part_setting(virtual_events,typhon_watch_senders,positive_integer,1000000,'The same in virtual time, which runs ahead of all watches','options/watch/watch_senders').
 part_setting(watches,typhon_watch_senders,positive_integer,100,'Watches that another process may have here','options/watch/watch_senders').
+part_setting(work_seconds,typhon_fleet,number,5,'Seconds of silence after which work goes to another worker','options/fleet/work').
