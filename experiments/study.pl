@@ -9,6 +9,7 @@
 :- module(study, []).
 :- use_module('../app/typhon/arguments', [arguments/3]).
 :- use_module(engine/catalogue, [catalogue/1, studies_named/2]).
+:- use_module('../app/typhon/engine_options', [engine_options/3]).
 :- use_module(engine/commands, [run_command/5]).
 :- use_module(engine/figures, [figures/3]).
 :- use_module(engine/plan,
@@ -19,6 +20,7 @@
 :- use_module(engine/store, [run_result/3]).
 :- use_module(engine/studies, [study_load/2, study_title/3]).
 :- use_module(engine/work, [runs_make/4]).
+:- autoload('engine/fleet_runs', [fleet_runs/5]).
 :- use_module(engine/worker, [run_here/4]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
@@ -44,6 +46,11 @@ opt_type(real,    real,    boolean).
 opt_type(real_runs, real_runs, natural).
 opt_type(means,   means,   boolean).
 opt_type(out,     out,     atom).
+opt_type(fleet,   fleet,   atom).
+opt_type(redis,   redis,   atom).
+opt_type(user,    user,    atom).
+opt_type(password_file, password_file, file(read)).
+opt_type(cacert,  cacert,  file(read)).
 
 opt_help(help(header),
 "Makes runs of studies, and their tables, claims and pictures\n").
@@ -70,10 +77,22 @@ its measures are within those of virtual time [false]").
 opt_help(real_runs, "Runs of that case, in real time [1]").
 opt_help(means,   "Print means and their confidence intervals, too [false]").
 opt_help(out,     "Directory for runs, tables and pictures [out/studies]").
+opt_help(fleet,   "Share the runs with all processes in which the same \c
+command runs, on any machine, as members of this fleet").
+opt_help(redis,   "With --fleet: its engine, a server of Redis or Valkey").
+opt_help(user,    "With --fleet: user of the engine").
+opt_help(password_file, "With --fleet: password of the engine").
+opt_help(cacert,  "With --fleet: use TLS; certificate of the authority of \c
+the engine").
 
 opt_meta(set,  'NAME=VALUE').
 opt_meta(case, 'CASE').
 opt_meta(out,  'DIRECTORY').
+opt_meta(fleet, 'FLEET').
+opt_meta(redis, 'HOST:PORT').
+opt_meta(user, 'NAME').
+opt_meta(password_file, 'FILE').
+opt_meta(cacert, 'FILE').
 
 main(Argv) :-
     set_stream(user_output, encoding(utf8)),
@@ -137,10 +156,17 @@ perform(Plans, Options) :-
 perform(Plans, Options) :-
     findall(Run, planned(Plans, Options, _, Run), Runs),
     runs_directory(Options, Root),
-    runs_make(Runs, Root, Options, Failed),
+    make(Runs, Root, Options, Failed),
     make_real(Plans, Root, Options, RealFailed),
     figures(Plans, Options, Missing),
     halt_unless_none(Failed + Missing + RealFailed).
+
+make(Runs, Root, Options, Failed) :-
+    engine_options(study, Options, Engine),
+    (   option(fleet(Fleet), Options)
+    ->  fleet_runs(Fleet-Engine, Runs, Root, Options, Failed)
+    ;   runs_make(Runs, Root, Options, Failed)
+    ).
 
 halt_unless_none(Count) :-
     (   Count =:= 0

@@ -54,8 +54,9 @@ a folder, with an interface of the same name beside it:
               log_server_start/2, log_server_stop/1, log_events/2 ]).
 :- reexport(typhon/options/fleet,
             [ fleet_join/2, fleet_leave/1, fleet_hosts/3, fleet_watch/3,
-              fleet_unwatch/1, fleet_drain/2, fleet_parked/2, work_put/3, work_take/4,
-              work_keep/4, work_done/4, work_results/3 ]).
+              fleet_unwatch/1, fleet_drain/2, fleet_parked/2, work_put/3,
+              work_take/4, work_keep/4, work_done/4, work_left/3,
+              work_results/3 ]).
 :- reexport(typhon/tools/environment, [agents/0, hosts/0]).
 :- reexport(typhon/tools/page, [page_start/1, page_stop/0]).
 :- reexport(typhon/bridges/common/starting,

@@ -1,5 +1,11 @@
 :- module(study_work,
-          [ runs_make/4                 % +Runs, +Root, +Options, -Failed
+          [ runs_make/4,                % +Runs, +Root, +Options, -Failed
+            with_workers/2,             % :Goal, -Failed
+            free_worker/2,              % +Desk, -Worker
+            assign/3,                   % +Worker, +Run, +Desk
+            answer_within/3,            % +Seconds, -Run, -Outcome
+            report/2,                   % +Outcome, +Run
+            show/2                      % +Done, +Task
           ]).
 :- use_module(library(aggregate), [aggregate/3, aggregate_all/3]).
 :- use_module(library(apply), [exclude/3]).
@@ -31,6 +37,8 @@ in it ends the workers: they get SIGTERM, and a thread kills those that still
 run ten seconds later.
 */
 
+:- meta_predicate with_workers(0, -).
+
 :- multifile
     prolog:message//1.
 
@@ -58,8 +66,18 @@ runs_make(Runs, Root, Options, Failed) :-
     exclude(run_done(Root, Logs), Runs, Missing),
     length(Missing, Total),
     monotonic_time(Begin),
+    with_workers(make_missing(Missing, desk(Jobs, Root, Logs), Begin-Total),
+                 Failed).
+
+%!  with_workers(:Goal, -Failed:integer) is det.
+%
+%   Call Goal, which assigns runs to workers, and end these.  A Desk is a term
+%   desk(Jobs, Root, Logs), a Task is Begin-Total.  Failed is the number of
+%   failures that Goal has reported.
+
+with_workers(Goal, Failed) :-
     retractall(failed_by(_)),
-    catch(( make_missing(Missing, desk(Jobs, Root, Logs), Begin-Total),
+    catch(( call(Goal),
             dismiss ),
           Ball,
           ( end_workers,
@@ -107,6 +125,11 @@ make(Runs, Desk, Task, Done) :-
     show(Done1, Task),
     make(Runs, Desk, Task, Done1).
 
+%!  report(+Outcome, +Run) is det.
+%!  show(+Done:integer, +Task) is det.
+%
+%   Report how Run ended, and how far the Task is.
+
 report(failed(Directory, Cause), Run) :-
     !,
     (   failed_by(Cause)
@@ -147,6 +170,9 @@ time_left(Done, Total, Begin, Text) :-
                 *            WORKERS           *
                 *******************************/
 
+%!  free_worker(+Desk, -Worker) is semidet.
+%!  assign(+Worker, +Run, +Desk) is det.
+
 free_worker(_, Out) :-
     worker(Out, _, _),
     \+ busy(Out, _, _),
@@ -180,12 +206,24 @@ assign(Out, Run, desk(_, Root, Logs)) :-
           error(_, _),
           true).
 
-%   next_answer(-Run, -Outcome): Outcome is `made` or failed(Directory,
-%   Cause).
-
 next_answer(Run, Outcome) :-
+    (   answer_within(0.1, Run0, Outcome0)
+    ->  Run = Run0,
+        Outcome = Outcome0
+    ;   next_answer(Run, Outcome)
+    ).
+
+%!  answer_within(+Seconds, -Run, -Outcome) is semidet.
+%
+%   Outcome is `made` or failed(Directory, Cause).
+%
+%   On 9.2 an exception during wait_for_input/3 corrupts the stacks, so the
+%   signal that raises it is delayed for a moment.
+
+answer_within(Seconds, Run, Outcome) :-
     findall(Out, busy(Out, _, _), Outs),
-    one_ready(Outs, Out),
+    sig_atomic(wait_for_input(Outs, Ready, Seconds)),
+    Ready = [Out|_],
     answer(Out, Answer),
     retract(busy(Out, Run, Directory)),
     (   Answer = answer(Outcome)
@@ -197,16 +235,6 @@ next_answer(Run, Outcome) :-
         part_fail(Part, Directory, Why, Outcome)
     ),
     !.
-
-%   On 9.2 an exception during wait_for_input/3 corrupts the stacks, so the
-%   signal that raises it is delayed for a moment.
-
-one_ready(Outs, Out) :-
-    sig_atomic(wait_for_input(Outs, Ready, 0.1)),
-    (   Ready = [Out|_]
-    ->  true
-    ;   one_ready(Outs, Out)
-    ).
 
 %   Reads a whole line: the rest of a line would look like the next answer.
 

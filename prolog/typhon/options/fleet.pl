@@ -13,6 +13,7 @@
             work_take/4,                % +Fleet, +Queue, +Worker, -Work
             work_keep/4,                % +Fleet, +Queue, +Worker, +Work
             work_done/4,                % +Fleet, +Queue, +Work, +Result
+            work_left/3,                % +Fleet, +Queue, -Left
             work_results/3              % +Fleet, +Queue, -Results
           ]).
 :- use_module(library(error), [must_be/2]).
@@ -24,8 +25,8 @@
             [parked_drop/2, parked_in_fleet/2, parked_send/2]).
 :- autoload('fleet/tags', [hosts_of_fleet/3]).
 :- autoload('fleet/work',
-            [ done_work/4, keep_work/4, put_work/3, results_of_work/3,
-              take_work/4 ]).
+            [ done_work/4, keep_work/4, left_work/3, put_work/3,
+              results_of_work/3, take_work/4 ]).
 
 /** <module> Fleets: hosts on many machines, which come, vanish and come back
 
@@ -214,6 +215,13 @@ work_keep(Fleet, Queue, Worker, Work) :-
 
 work_done(Fleet, Queue, Work, Result) :-
     done_work(Fleet, Queue, Work, Result).
+
+%!  work_left(+Fleet, +Queue:atom, -Left:integer) is det.
+%
+%   Left is the number of tasks that are not done.
+
+work_left(Fleet, Queue, Left) :-
+    left_work(Fleet, Queue, Left).
 
 %!  work_results(+Fleet, +Queue:atom, -Results:list) is det.
 %

@@ -3,6 +3,7 @@
             take_work/4,                % +Fleet, +Queue, +Worker, -Work
             keep_work/4,                % +Fleet, +Queue, +Worker, +Work
             done_work/4,                % +Fleet, +Queue, +Work, +Result
+            left_work/3,                % +Fleet, +Queue, -Left
             results_of_work/3           % +Fleet, +Queue, -Results
           ]).
 :- use_module(library(error), [must_be/2]).
@@ -26,9 +27,11 @@ but too slow works in vain, and changes nothing.
 %!  take_work(+Fleet, +Queue, +Worker, -Work) is semidet.
 %!  keep_work(+Fleet, +Queue, +Worker, +Work) is semidet.
 %!  done_work(+Fleet, +Queue, +Work, +Result) is det.
+%!  left_work(+Fleet, +Queue, -Left:integer) is det.
 %!  results_of_work(+Fleet, +Queue, -Results:list) is det.
 %
-%   See work_put/3, work_take/4, work_keep/4, work_done/4, work_results/3.
+%   See work_put/3, work_take/4, work_keep/4, work_done/4, work_left/3,
+%   work_results/3.
 
 put_work(Fleet, Queue, Tasks) :-
     must_be_queue(Fleet, Queue),
@@ -80,6 +83,11 @@ done_work(Fleet, Queue, work(Entry, N, _), Result) :-
     must_be_queue(Fleet, Queue),
     format(string(Text), '~k', [Result]),
     engine_script(Fleet, work_done, [Queue,Entry,N,Text], _).
+
+left_work(Fleet, Queue, Left) :-
+    must_be_queue(Fleet, Queue),
+    engine_key(Fleet, [work,Queue], Key),
+    engine(Fleet, xlen(Key), Left).
 
 results_of_work(Fleet, Queue, Results) :-
     must_be_queue(Fleet, Queue),

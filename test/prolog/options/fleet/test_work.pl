@@ -59,7 +59,9 @@ test(what_others_have_is_none_and_an_end_is_failure) :-
     joined(( work_put(lab, q, [a]),
              work_take(lab, q, w1, Work),
              work_take(lab, q, w2, none),
+             work_left(lab, q, 1),
              work_done(lab, q, Work, r),
+             work_left(lab, q, 0),
              \+ work_take(lab, q, w2, _),
              work_results(lab, q, [1-r]) )).
 test(queue_that_was_never_put_is_at_its_end, fail) :-
