@@ -26,6 +26,8 @@ stopped waits for a message, which the handlers of signals send.
 :- use_module(typhon/arguments, [arguments_complete/2]).
 :- use_module(typhon/commands, [command/4, footer/2, option/5]).
 :- use_module(typhon/diagnose, [diagnose/1]).
+:- use_module(typhon/engine_options, [engine_options/3]).
+:- use_module(typhon/fleet, [fleet/3]).
 :- use_module(typhon/journal, [journal_shown/2]).
 :- use_module(typhon/keys, [keys/3, keys_sign_file/3]).
 :- use_module(typhon/options, [options_for/3]).
@@ -347,6 +349,8 @@ run(Command, Arguments, Options) :-
     memberchk(Command, [check, move, dispose, join, remote, stop]),
     !,
     order(Command, Arguments, Options).
+run(fleet, [What|Arguments], Options) :-
+    fleet(What, Arguments, Options).
 run(diagnose, [], _) :-
     diagnose(none).
 run(diagnose, [Bridge|Arguments], _) :-
@@ -364,12 +368,9 @@ run(diagnose, [Kind, Port], _) :-
     ).
 
 joined(Options) :-
+    engine_options(host, Options, Engine),
     (   option(fleet(Fleet), Options)
-    ->  options_for(fleet, Options, FleetOptions),
-        fleet_join(Fleet, FleetOptions)
-    ;   member(Option, [redis(_), user(_), password_file(_), cacert(_)]),
-        option(Option, Options)
-    ->  required(host, fleet(_), Options)
+    ->  fleet_join(Fleet, Engine)
     ;   true
     ).
 

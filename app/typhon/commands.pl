@@ -4,10 +4,14 @@
             option/5                    % ?Command, ?Option, ?Type, ?Meta, ?Help
           ]).
 
+:- use_module(engine_options, [engine_option/4]).
+
 /** <module> The commands and options of the command line
 
 *Threading*: facts only.
 */
+
+:- use_module(library(lists), [member/2]).
 
 %!  command(?Command, ?Arguments, ?Count, ?Help) is nondet.
 %
@@ -47,6 +51,8 @@ command(picture, 'LOG SVG', 2,
         'draw a log: hosts, time, agents and messages').
 command(page, '[LOG]', 0-1,
         'show the network of a running host in a browser, or replay a log').
+command(fleet, 'hosts | where AGENT | park ... | drain HOST | here HOST', 1-3,
+        'hosts, agents, and what is parked in a fleet').
 command(journal, 'DIR', 1,
         'show the journal of a stopped process or network').
 command(keys, 'init | host NAME | author NAME | revoke NAME', 1-2,
@@ -78,6 +84,20 @@ footer(page, 'Prints the link, which authorizes all orders of the page. Runs unt
 footer(page, 'SIGTERM, SIGHUP or SIGINT. With LOG it writes a file for a browser.').
 footer(keys,
        'Copy DIR/NAME to the machine of NAME: host_start(H, [tls(DIR)]).').
+footer(fleet, Line) :-
+    member(What-Help,
+           [ hosts-'hosts of the fleet, and since when they are up or away',
+             'where AGENT'-'the host on which the agent is',
+             'park list'-'agents that wait for hosts that are away',
+             'park drop AGENT'-'it goes on where it was',
+             'park send AGENT'-'send it to its host now',
+             'drain HOST'-'its agents go elsewhere, and it leaves; prints \c
+                           those that stay',
+             'here HOST'-'exit status 0: others find the host in its fleet',
+             'alive HOST'-'exit status 0: a worker of its process takes a turn' ]),
+    format(atom(Line), '    ~w~t~28|~w', [What, Help]).
+footer(fleet, 'drain, here and alive ask the process of HOST, an address; they need no').
+footer(fleet, '--fleet, and alive no engine.').
 footer(stop, 'A command `host` or `network` ends with its host.').
 footer(Command, 'AGENT is an id, as in `agents`, or with --host a name.') :-
     memberchk(Command, [send, move, dispose, join]).
@@ -128,20 +148,25 @@ option(host, journal, atom, 'DIR',
         --fleet in redis').
 option(host, fleet, atom, 'FLEET',
        'fleet of the host; its agents go elsewhere when it stops').
-option(host, redis, atom, 'HOST:PORT',
-       'with --fleet: its engine, a server of Redis or Valkey (required)').
-option(host, user, atom, 'NAME',
-       'with --fleet: user of the engine').
-option(host, password_file, file(read), 'FILE',
-       'with --fleet: password of the engine').
-option(host, cacert, file(read), 'FILE',
-       'with --fleet: use TLS; certificate of the authority of the engine').
+option(Command, Option, Type, Meta, Help) :-
+    memberchk(Command, [host, fleet]),
+    engine_option(Option, Type, Meta, Help).
 option(host, tags, atom, 'A,B',
        'with --fleet: what any(Tag) finds the host by').
 option(host, stop_seconds, number, 'SECONDS',
        'time to stop, before the process is killed (default 60)').
 option(host, sync, atom, 'HOW',
        'with --journal: normal or, to survive a power cut, full').
+option(fleet, fleet, atom, 'FLEET',
+       'fleet to ask').
+option(fleet, tag, atom, 'A,B',
+       'hosts: only those with all of these tags').
+option(fleet, away, boolean, '',
+       'hosts: only those that are away').
+option(fleet, to, atom, 'A,B',
+       'drain: to hosts with all of these tags (default its first tag)').
+option(fleet, timeout, number, 'SECONDS',
+       'seconds to wait: drain, for agents (default 60); alive (default 10)').
 option(network, journal, atom, 'DIR',
        'keep the state of the processes below DIR or at a \c
         postgresql:// URL').

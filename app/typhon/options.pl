@@ -10,14 +10,12 @@
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2]).
-:- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(orders, [program_argument/2]).
 
 %!  options_for(+What, +Options:list, -For:list) is det.
 %
 %   For are the options of predicates which start a host(Name), a `network`, an
-%   `agent`, a `log` or a `page`, or join a `fleet`, made from Options of the
-%   command line.
+%   `agent`, a `log` or a `page`, made from Options of the command line.
 %
 %   @error typhon_usage(required(host, Option)): one option needs another
 
@@ -48,24 +46,6 @@ option_for(host(_), Options, authors(Authors)) :-
 option_for(host(_), Options, consult(Files)) :-
     findall(File, member(consult(File), Options), Files),
     Files \== [].
-
-option_for(fleet, Options, redis(Host:Port)) :-
-    needed(redis(Text), Options),
-    (   atomic_list_concat([Host, Text1], :, Text),
-        atom_number(Text1, Port)
-    ->  true
-    ;   throw(error(typhon_usage(option(host, value_type(redis, 'HOST:PORT',
-                                                         Text))), _))
-    ).
-option_for(fleet, Options, user(User)) :-
-    option(user(User), Options).
-option_for(fleet, Options, password(Password)) :-
-    option(password_file(File), Options),
-    read_file_to_string(File, Text, []),
-    split_string(Text, "\n", "\r", [Password|_]).
-option_for(fleet, Options, Option) :-
-    option(cacert(File), Options),
-    member(Option, [tls(true), cacert(File)]).
 
 option_for(network, Options, machines(Machines)) :-
     comma_list(machines(Text), Options, Text, Machines).

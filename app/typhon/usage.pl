@@ -120,6 +120,9 @@ usage(no_agent(Name, Host, Agents)) -->
 usage(several_agents(Name, Ids)) -->
     { atomic_list_concat(Ids, ' or ', Text) },
     [ 'several are named ~w: ~w?'-[Name, Text] ].
+usage(no_engine(Host, Fleet)) -->
+    [ 'the process of ~w cannot reach the engine of the fleet ~w'-
+      [Host, Fleet] ].
 usage(not_one_host(Name, [])) -->
     !,
     [ 'no host ~w in the network of the agent'-[Name] ].

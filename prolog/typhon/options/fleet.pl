@@ -9,6 +9,8 @@
             fleet_parked/2,             % +Fleet, -Parked
             fleet_park_drop/2,          % +Fleet, +Agent
             fleet_park_send/2,          % +Fleet, +Agent
+            fleet_overview/3,           % +Fleet, +Addresses, -Hosts
+            fleet_here/1,               % +Host
             work_put/3,                 % +Fleet, +Queue, +Tasks
             work_take/4,                % +Fleet, +Queue, +Worker, -Work
             work_keep/4,                % +Fleet, +Queue, +Worker, +Work
@@ -23,6 +25,7 @@
             [fleet_joined/2, join_fleet/2, leave_fleet/1, must_be_fleet/1]).
 :- autoload('fleet/parking',
             [parked_drop/2, parked_in_fleet/2, parked_send/2]).
+:- autoload('fleet/overview', [host_here/1, overview_of_fleet/3]).
 :- autoload('fleet/tags', [hosts_of_fleet/3]).
 :- autoload('fleet/work',
             [ done_work/4, keep_work/4, left_work/3, put_work/3,
@@ -175,6 +178,27 @@ fleet_park_drop(Fleet, Agent) :-
 
 fleet_park_send(Fleet, Agent) :-
     parked_send(Fleet, Agent).
+
+%!  fleet_overview(+Fleet, +Addresses:list, -Hosts:list) is det.
+%
+%   Hosts are terms host(Address, State, Load, Tags, Since, Parked) of the hosts
+%   of Fleet among Addresses, or of all if that is [].  State is `up` or `away`,
+%   since the time Since, by the clock of the engine, or `unknown`.  Parked is the
+%   number of agents and messages that wait for the process of the host.
+%
+%   @error existence_error(fleet, Fleet), resource_error(fleet(Fleet))
+
+fleet_overview(Fleet, Addresses, Hosts) :-
+    overview_of_fleet(Fleet, Addresses, Hosts).
+
+%!  fleet_here(+Host) is semidet.
+%
+%   Others find Host, a host of this process, in its fleet.
+%
+%   @error existence_error(fleet_of_host, Host), resource_error(fleet(Fleet))
+
+fleet_here(Host) :-
+    host_here(Host).
 
                 /*******************************
                 *             WORK             *

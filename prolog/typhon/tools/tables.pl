@@ -1,7 +1,8 @@
 :- module(typhon_tables,
           [ print_hosts/1,              % +Places
             print_agents/2,             % +Places, +Ids
-            print_tree/1                % +Places
+            print_tree/1,               % +Places
+            print_table/3               % +Columns, +Rows, +What
           ]).
 
 /** <module> Tables of hosts, agents and supervision
@@ -172,6 +173,11 @@ print_silence(late, Endpoint) :-
     setting(typhon_inventory:seconds, Seconds),
     format_shown('The process at ~w has not answered within ~w s~n',
                  [Endpoint, Seconds]).
+
+%!  print_table(+Columns, +Rows, +What) is det.
+%
+%   Columns are pairs of a title and a side, `left` or `right`; without Rows a
+%   line says that there is no What.
 
 print_table(_, [], What) :-
     !,

@@ -29,6 +29,7 @@ if at == e then call('HDEL', p..'at', e) else call('HSET', p..'at', e, at) end
 call('ZREM', p..'orphans', e)
 call('ZREM', p..'gone', e)
 local back = call('ZADD', p..'lease', now + ttl, e) == 1
+if back or status == 'new' then call('HSET', process, 'since', now) end
 
 -- its hosts
 

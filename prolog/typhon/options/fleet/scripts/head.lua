@@ -2,7 +2,7 @@
 -- Time is that of the engine, in milliseconds: hosts need no common clock.
 --
 --   lease     zset    endpoint -> when its lease lapses
---   p:E       hash    token, epoch, at, pid, journal, ttl: the process at E
+--   p:E       hash    token, epoch, at, pid, journal, ttl, since: the process at E
 --   on:E      set     addresses of the hosts of E
 --   hosts     hash    address -> tags, separated by newlines
 --   tag:T     zset    address -> load; tag: has all hosts
