@@ -9,6 +9,7 @@
             fleet_parked/2,             % +Fleet, -Parked
             fleet_park_drop/2,          % +Fleet, +Agent
             fleet_park_send/2,          % +Fleet, +Agent
+            fleet_mine/1,               % ?Fleet
             fleet_overview/3,           % +Fleet, +Addresses, -Hosts
             fleet_here/1,               % +Host
             work_put/3,                 % +Fleet, +Queue, +Tasks
@@ -178,6 +179,14 @@ fleet_park_drop(Fleet, Agent) :-
 
 fleet_park_send(Fleet, Agent) :-
     parked_send(Fleet, Agent).
+
+%!  fleet_mine(?Fleet) is nondet.
+%
+%   This process has joined Fleet.
+
+fleet_mine(Fleet) :-
+    current_module(typhon_members),
+    fleet_joined(Fleet, _).
 
 %!  fleet_overview(+Fleet, +Addresses:list, -Hosts:list) is det.
 %

@@ -33,7 +33,10 @@ a second; the browser sends nothing there.  The first message is
     Agent: {"id": Id, "host": Address, "program": Name, "status": Word,
             "doing": Text, "hops": N, "mail": N}
 
-where the state of a host whose process has ended or is silent is `lost`.  Then
+where the state of a host whose process has ended or is silent is `lost`.  A
+host of a fleet whose process is silent is `away`; it has also "since", as of
+get_time/1, and "parked", the number of agents and messages that wait for its
+process.  Then
 lists of events follow; their arguments are texts, except numbers:
 
     {"events": [[Time, Host, Agent, Kind, Argument ...], ...]}
@@ -52,7 +55,8 @@ lists of events follow; their arguments are texts, except numbers:
       | unlink   | Host                       |
       | leave    | Fact                       |
       | take     | Fact                       |
-      | started, stopped, lost |              |
+      | started, stopped, lost, back |        |
+      | away     | Since, Parked              |
       | refused  | Agent, Reason              |
       | skipped  | Count                      |
       | show, add | Overlay, Where, Value     |
@@ -190,19 +194,20 @@ host_dict(host(Address, State, Load, Capacity, Arrived, Neighbours, Costs,
     address_parts(Address, _, Endpoint),
     machine(Endpoint, Machine),
     maplist(link_row, Neighbours, Costs, Links),
-    state_shown(State, Shown),
+    state_shown(State, Shown, More),
     maplist(name_text, [Address, Endpoint, Machine, Shown],
             [Id, Process, On, StateText]),
     Dict0 = _{id:Id, process:Process, machine:On, state:StateText,
               load:Load, arrived:Arrived, links:Links},
     (   integer(Capacity)
     ->  Dict = Dict0.put(capacity, Capacity)
-    ;   Dict = Dict0
+    ;   Dict = Dict0.put(More)
     ).
 
-state_shown(gone, lost) :- !.
-state_shown(silent, lost) :- !.
-state_shown(State, State).
+state_shown(gone, lost, _{}) :- !.
+state_shown(silent, lost, _{}) :- !.
+state_shown(away(Since, Parked), away, _{since:Since, parked:Parked}) :- !.
+state_shown(State, State, _{}).
 
 machine(Endpoint, Machine) :-
     (   sub_atom(Endpoint, Before, _, After, :),
@@ -293,6 +298,8 @@ page_time(Stamp, Time) :-
     Time is (Stamp-Epoch)*Rate.
 page_time(_, null).
 
+page_time(_, none, null) :-             % of a fleet
+    !.
 page_time(Host, HostTime, Time) :-
     reference(Epoch, Rate),
     clock_of(Host, Epoch1, Rate1),

@@ -6,8 +6,8 @@
             sources_metrics/1,          % -Text
             sources_tree/1              % -Trees
           ]).
-:- use_module(library(apply), [maplist/2]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(apply), [exclude/3, maplist/2]).
+:- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(option), [option/2]).
 :- use_module(library(pairs), [group_pairs_by_key/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
@@ -24,6 +24,8 @@
                 supervision_tree/3 ]).
 :- use_module('../../options/watch', [metrics/2, unwatch/1, watch/3]).
 :- use_module(browsers, [browsers_send/1, browsers_there/0]).
+:- use_module(fleet_hosts,
+              [fleet_away/2, fleet_place/1, fleets_follow/1, fleets_stop/0]).
 :- use_module(protocol, [times_of/1]).
 
 /** <module> The hosts that a page shows, and their events
@@ -50,7 +52,8 @@ browser is connected, a thread searches for new hosts every few seconds.
 %
 %   Show the hosts of this process and of the networks that it has started, with
 %   the option host(Host) also that host, and all hosts that links from these
-%   lead to; send their events to browsers.  Stop doing so.
+%   lead to, and those of the fleets that it has joined; send their events to
+%   browsers.  Stop doing so.
 %
 %   @error existence_error(host, Host), host_unreachable(Address)
 
@@ -74,6 +77,7 @@ sources_stop :-
     ->  server_stop(Finder)
     ;   true
     ),
+    fleets_stop,
     end_watches_if(true),
     retractall(shown(_)),
     (   retract(place(_))
@@ -115,12 +119,15 @@ sources_tree(Trees) :-
 :- public handle/3.
 
 handle(browser, State, Next) :-
+    printing_errors(fleets_follow(browsers_send)),
     search_later(State, Next).
 handle(timeout, State, Next) :-
     (   browsers_there
-    ->  printing_errors(watch_new_hosts),
+    ->  printing_errors(fleets_follow(browsers_send)),
+        printing_errors(watch_new_hosts),
         search_later(State, Next)
-    ;   printing_errors(end_watches_if(\+ browsers_there)),
+    ;   fleets_stop,
+        printing_errors(end_watches_if(\+ browsers_there)),
         Next = State
     ).
 
@@ -154,13 +161,21 @@ remove_idle(Watches) :-
     forall(member(Watch, Watches), retract(page_watch(Watch))).
 
 take_inventory(Most, Seen, Hosts) :-
-    findall(Place, place(Place), Places),
+    findall(Place, ( place(Place) ; fleet_place(Place) ), Places),
     inventory(Most, Places, Seen, Silent),
-    inventory_hosts(Places, Seen, Silent, Hosts),
+    inventory_hosts(Places, Seen, Silent, Hosts0),
+    exclude(is_away, Hosts0, Hosts1),
+    findall(host(Address, State, '', '', '', [], [], none),
+            fleet_away(Address, State), Away),
+    append(Hosts1, Away, Hosts),
     times_of(Hosts),
     findall(Endpoint, endpoint_of(Hosts, Endpoint), Endpoints0),
     sort(Endpoints0, Endpoints),
     with_mutex(typhon_page_sources, show(Endpoints)).
+
+is_away(Host) :-
+    arg(1, Host, Address),
+    fleet_away(Address, _).
 
 endpoint_of(Hosts, Endpoint) :-
     member(Host, Hosts),

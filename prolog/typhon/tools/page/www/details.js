@@ -1,7 +1,7 @@
 // The details of the selected agent, with its program, or host; updated live.
 
 import { button, chooser, element, renew, unpressed } from './dom.js';
-import { shortName } from './names.js';
+import { absence, shortName } from './names.js';
 import { agentActions, hostActions } from './work.js';
 
 const CALM = 1000;              // ms between two queries while events arrive
@@ -64,7 +64,9 @@ class Details {
     if (!this.what || document.hidden || (this.looking && !always)) return;
     const round = ++this.round, { what, id } = this;
     this.looking = true;
+    const host = what === 'host' && this.store.hosts.get(id);
     try {
+      if (host?.state === 'away') throw new Error(`Away ${absence(host)}`);
       const data = await this.app.ask({ ask: what, [what]: id });
       await new Promise(unpressed);
       if (round !== this.round || id !== this.id) return;

@@ -77,11 +77,22 @@ export const APPLY = {
     store.host(id).state = 'running';
     store.shape++;
   },
+  // Events of a fleet: its process is not heard of, and is back.
+  away(store, [, , , , since, parked], id) {
+    if (store.host(id).state !== 'away') gone(store, id, 'away');
+    Object.assign(store.host(id), { since, parked });
+  },
+  back(store, event, id) {
+    store.host(id).state = 'running';
+    store.shape++;
+  },
   stopped(store, event, id) { gone(store, id, 'stopped'); },
   refused(store, [time, , , , agent, reason], host) {
     store.line(host, time, agent, `refused: ${reason}`);
   },
-  lost(store, event, id) { gone(store, id, 'lost'); },
+  lost(store, event, id) {
+    if (store.hosts.get(id)?.state !== 'away') gone(store, id, 'lost');
+  },
   show(store, [time, , , , name, key, value], host) {
     const overlay = store.overlay({ name });
     const at = key || host;
@@ -108,7 +119,7 @@ const gone = (store, id, state) => {
     for (const other of [...host.links.keys()]) store.unlink(id, other);
   for (const agent of [...host.agents]) {
     if (agent.hop && agent.hop.arrives === null) continue;
-    store.over(agent, state === 'lost' ? 'its host is lost' : 'its host stopped');
+    store.over(agent, state === 'stopped' ? 'its host stopped' : `its host is ${state}`);
   }
 };
 

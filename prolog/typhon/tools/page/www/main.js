@@ -240,15 +240,17 @@ function stateLine(app) {
     if (now - at < 900 && $('state').dataset.state === app.state) return;
     const rate = (counts.arrived - hops) * 1000 / Math.max(1, now - at);
     [hops, at] = [counts.arrived, now];
-    let there = 0, lost = 0, running = 0;
+    let there = 0, lost = 0, away = 0, running = 0;
     for (const host of hosts.values())
       if (host.state === 'running') there++;
+      else if (host.state === 'away') away++;
       else if (host.state !== 'stopped') lost++;
     for (const agent of agents.values()) if (agent.status !== 'ended') running++;
     $('state').dataset.state = app.state;
     $('state').textContent = [STATES[app.state] + (app.why ? `: ${app.why}` : ''),
       app.readOnly ? 'only to look at' : null, count(there, 'host'),
       lost ? `${lost} lost` : null,
+      away ? `${away} away` : null,
       count(running, 'agent'), rate >= 0.5 ? `${count(Math.round(rate), 'hop')}/s` : null,
       counts.skipped ? `${counts.skipped} events skipped` : null]
       .filter(Boolean).join(' · ');

@@ -8,7 +8,7 @@
 import { arrange, Force, LAYOUTS, recognize } from './layout.js';
 import { onTheme, Palette, paperPalette, legend } from './palette.js';
 import { cut, Scene } from './mapscene.js';
-import { byName, counted, found, shortName } from './names.js';
+import { absence, byName, counted, found, shortName } from './names.js';
 import {
   button, choice, element, fillChoice, fitCanvas, onSize, pointers,
 } from './dom.js';
@@ -498,7 +498,8 @@ class MapView extends Picture {
     const shown = links.length > 8 ? `${links.length} hosts`
       : links.join(' ') || 'no host';
     const value = this.store.overlays.get(this.scene.overlay)?.values.get(hostId);
-    return `${host.name} (${host.process}), ${host.state}, `
+    return `${host.name} (${host.process}), `
+      + `${[host.state, absence(host)].filter(Boolean).join(' ')}, `
       + `${counted(host.agents.size, 'agent')}, linked to ${shown}`
       + (value === undefined ? '' : `, ${this.scene.overlay}: ${value}`);
   }

@@ -12,6 +12,12 @@ export const machineOf = process => {
   return colon < 0 ? process : process.slice(0, colon);
 };
 
+// What is known of a host that is away, or ''.
+export const absence = ({ state, since, parked }) => state !== 'away' ? ''
+  : (typeof since === 'number'
+      ? `since ${new Date(since * 1000).toLocaleString()}` : '')
+    + (parked ? `, ${parked} waiting` : '');
+
 // n2 is before n10.
 const collator = new Intl.Collator('en', { numeric: true });
 export const byName = (a, b) => collator.compare(a, b);

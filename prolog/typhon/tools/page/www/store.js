@@ -113,6 +113,8 @@ export class Store extends Announcer {
     host.machine = entry.machine || host.machine;
     host.state = entry.state || 'running';
     host.load = typeof entry.load === 'number' ? entry.load : null;
+    host.since = entry.since;
+    host.parked = entry.parked;
     if (typeof entry.x === 'number' && typeof entry.y === 'number')
       host.given = { x: entry.x, y: entry.y };
   }

@@ -3,7 +3,7 @@
 import {
   element, inOrder, onSize, unpressed, choice, fillChoice,
 } from './dom.js';
-import { byName, processOf, shortName } from './names.js';
+import { absence, byName, processOf, shortName } from './names.js';
 
 const ROW = 28;                 // pixels, as in style.css
 const SPARE = 6;                // rows above and below the visible ones
@@ -221,7 +221,8 @@ export function hostList(parent, store, app) {
     columns: [
       column('name', 'Host', '2 1 6rem', host => host.name),
       column('process', 'Process', '2 1 8rem', host => host.process),
-      column('state', 'State', '1 1 5rem', host => host.state,
+      column('state', 'State', '1 1 5rem',
+        host => [host.state, absence(host)].filter(Boolean).join(' '),
         host => `state-${host.state}`),
       count('agents', 'Agents', host => host.agents.size),
       count('links', 'Links', host => host.links.size),
