@@ -3,11 +3,11 @@
           ]).
 :- use_module(library(lists), [member/2, subset/2]).
 :- use_module(library(option), [option/2, option/3]).
-:- use_module(library(time), [call_with_time_limit/2]).
 :- use_module('../../prolog/typhon',
               [ agent_where/2, fleet_join/2, fleet_leave/1, remote/2 ]).
 :- use_module('../../prolog/typhon/kernel/base/text', [format_shown/2]).
-:- use_module('../../prolog/typhon/kernel/host/hosts', [address_parts/3]).
+:- use_module('../../prolog/typhon/kernel/host',
+              [address_parts/3, process_ask/6]).
 :- use_module('../../prolog/typhon/options/fleet',
               [fleet_overview/3]).
 :- use_module('../../prolog/typhon/tools/tables', [print_table/3]).
@@ -49,11 +49,13 @@ fleet(here, [Host], _) =>
     asks(Host, typhon_fleets:fleet_here(Name)).
 fleet(alive, [Host], Options) =>
     option(timeout(Seconds), Options, 10),
-    catch(call_with_time_limit(Seconds, remote(Host, true)),
-          time_limit_exceeded,
+    address_parts(Host, Name, Endpoint),
+    catch(process_ask(Endpoint, Host, remote, remote(Name, true), true(_),
+                      Seconds),
+          error(timeout_error(_, _), _),
           fail).
 fleet(What, Arguments, _) =>
-    Whats = [hosts, where, park, drain, here, alive],
+    Whats = [hosts, where, drain, here, alive],
     (   member(What, Whats)
     ->  throw(error(typhon_usage(arguments(fleet, [What|Arguments])), _))
     ;   throw(error(typhon_usage(unknown_command(What, Whats)), _))

@@ -2,7 +2,7 @@
           [ fleet_runs/5                % +Fleet, +Runs, +Root, +Options, -Failed
           ]).
 :- use_module(library(filesex), [directory_file_path/3, directory_member/3]).
-:- use_module(library(lists), [member/2, nth1/3]).
+:- use_module(library(lists), [member/2, nth1/3, same_length/2]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(socket), [gethostname/1]).

@@ -181,7 +181,7 @@ test(host_without_a_fleet_is_not_here) :-
                  refused([fleet, here, Address], "fleet") )).
 test(help_names_what_there_is) :-
     lines([fleet, '--help'], Lines),
-    forall(member(What, [hosts, where, 'park list', drain, here, alive]),
+    forall(member(What, [hosts, where, drain, here, alive]),
            ( atomic_list_concat(['    ', What, '*'], Pattern),
              has(Lines, Pattern) )).
 

@@ -130,7 +130,7 @@ engine_is_lost(Dir, File, Redis) :-
           redis_signal(Redis, kill),
           go(Dir),
           directory_file_path(Dir, 'one.txt', Said),
-          wait_until(test_fleet_runs:says(Said, "it is asked again"), 60),
+          wait_until(test_fleet_runs:says(Said, "it is asked again"), 30),
           redis_restart(Redis),
           redis_empty(Redis),
           wait_for_end(Pid, 120, Status) ),

@@ -4,7 +4,7 @@
 
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/redis').
-:- use_module(library(lists), [member/2, numlist/3]).
+:- use_module(library(lists), [numlist/3]).
 :- use_module(library(plunit)).
 :- use_module(library(settings), [set_setting/2, setting/2]).
 :- use_module(library(typhon)).

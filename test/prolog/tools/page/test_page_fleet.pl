@@ -4,6 +4,7 @@
 % which no link leads to, go away and come back.
 
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/browser').
 :- use_module('../../../lib/pages').
 :- use_module('../../../lib/peers').
 :- use_module('../../../lib/redis').
@@ -59,9 +60,42 @@ goes_and_comes(Base, Beta0) :-
           peer_do(beta, fleet_leave(lab)),
           feed_event(Feed, [Beta, "", "stopped"], _) )).
 
+%   In Chromium: the line of the state, the list, and the details.
+
+seen_by_a_browser(Base, Beta) :-
+    with_browser(Browser,
+        ( browser_open(Browser, Base),
+          is(Browser, Beta, running),
+          peer_signal(beta, stop),
+          is(Browser, Beta, away),
+          browser_wait(Browser,
+              "return document.querySelector('#state').textContent\c
+                  .includes('1 away')"),
+          browser_keys_to_hosts(Browser),
+          browser_wait(Browser,
+              "return /away since .*[0-9]/.test(document.querySelector(\c
+                  '#table-host .row.over')?.textContent)"),
+          peer_signal(beta, cont),
+          is(Browser, Beta, running),
+          browser_wait(Browser,
+              "return !document.querySelector('#table-host .row.over')") )).
+
+browser_keys_to_hosts(Browser) :-
+    browser_run(Browser,
+                "[...document.querySelectorAll('[role=tab]')].find(tab =>\c
+                  tab.textContent.trim() === 'Hosts').click()", _).
+
+is(Browser, Host, State) :-
+    format(string(Script),
+           "return globalThis.typhon?.app.store.hosts.get('~w')?.state === '~w'",
+           [Host, State]),
+    browser_wait(Browser, Script).
+
 :- begin_tests(page_fleet).
 
 test(hosts_of_a_fleet_are_shown_away_and_back) :-
     with_page_of_fleet(Base, Beta, goes_and_comes(Base, Beta)).
+test(browser_shows_since_when_a_host_is_away) :-
+    with_page_of_fleet(Base, Beta, seen_by_a_browser(Base, Beta)).
 
 :- end_tests(page_fleet).
