@@ -15,7 +15,8 @@ It has its data in a temporary directory, and listens at a socket there.
 *Threading*: the main thread.
 */
 
-:- use_module(common, [project_file/2, python/1]).
+:- use_module(vanishing_relay,
+              [vanishing_order/2, vanishing_start/3, vanishing_stop/1]).
 :- use_module(library(filesex),
               [delete_directory_and_contents/1, directory_file_path/3]).
 :- use_module(library(lists), [append/3, last/2]).
@@ -28,7 +29,7 @@ It has its data in a temporary directory, and listens at a socket there.
 :- dynamic
     running/3,                          % Dir, Pid, Err
     crashed/1,                          % Dir
-    relay/2.                            % In, Out
+    relay/1.                            % Relay
 
 %!  postgres_start is det.
 %!  postgres_stop is det.
@@ -97,35 +98,27 @@ postgres_url(Schema, Url) :-
 %   machine that can `vanish` and `return`: these are Orders.
 
 with_postgres_relay(Schema, Url, Goal) :-
-    setup_call_cleanup(relay_start(Pid, In, Out),
-                       ( relay_url(Out, Schema, Url), once(Goal) ),
-                       relay_stop(Pid, In, Out)).
-
-relay_start(Pid, In, Out) :-
     running(Dir, _, _),
     directory_file_path(Dir, '.s.PGSQL.5432', Socket),
-    project_file('test/lib/vanishing_relay.py', File),
-    python(Python),
-    process_create(Python, [File, Socket],
-                   [stdin(pipe(In)), stdout(pipe(Out)), process(Pid)]),
-    assertz(relay(In, Out)).
+    setup_call_cleanup(relay_start(Socket, Relay, Port),
+                       ( relay_url(Port, Schema, Url), once(Goal) ),
+                       relay_stop(Relay)).
 
-relay_url(Out, Schema, Url) :-
-    read_line_to_string(Out, Port),
-    format(atom(Url), 'postgresql://typhon@127.0.0.1:~s/postgres?schema=~w',
+relay_start(Socket, Relay, Port) :-
+    vanishing_start(Socket, Relay, Port),
+    assertz(relay(Relay)).
+
+relay_stop(Relay) :-
+    retractall(relay(Relay)),
+    vanishing_stop(Relay).
+
+relay_url(Port, Schema, Url) :-
+    format(atom(Url), 'postgresql://typhon@127.0.0.1:~d/postgres?schema=~w',
            [Port, Schema]).
 
-relay_stop(Pid, In, Out) :-
-    retractall(relay(In, Out)),
-    close(In),
-    close(Out),
-    process_wait(Pid, exit(0)).
-
 postgres_relay(Order) :-
-    relay(In, Out),
-    format(In, '~w~n', [Order]),
-    flush_output(In),
-    read_line_to_string(Out, "done").
+    relay(Relay),
+    vanishing_order(Relay, Order).
 
                 /*******************************
                 *           PROGRAMS           *

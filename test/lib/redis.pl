@@ -1,6 +1,7 @@
 :- module(test_redis,
           [ with_redis/2,               % -Redis, :Goal
             with_redis/3,               % +Options, -Redis, :Goal
+            with_sentinel/3,            % +Port, -Address, :Goal
             redis_address/2,            % +Redis, -Address
             redis_signal/2,             % +Redis, +Signal
             redis_restart/1,            % +Redis
@@ -18,6 +19,7 @@ Each has its data in a temporary directory, and confirms what is on the disk.
 */
 
 :- use_module(common).
+:- use_module(texts, [write_file/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(process),
@@ -30,6 +32,7 @@ Each has its data in a temporary directory, and confirms what is on the disk.
 :- meta_predicate
     with_redis(-, 0),
     with_redis(+, -, 0),
+    with_sentinel(+, -, 0),
     with_fleet(+, -, +, 0).
 
 :- dynamic running/2.           % Port, Pid
@@ -55,6 +58,30 @@ with_redis_in(Dir, Options, redis(Port, Dir, Options), Goal) :-
                        once(Goal),
                        stop(Port)).
 
+%!  with_sentinel(+Port, -Address, :Goal) is semidet.
+%
+%   As once(Goal), while a sentinel at Address watches the server at Port, as
+%   `lab`.  A master that is silent for a second is replaced.
+
+with_sentinel(Master, Address, Goal) :-
+    with_tmp_dir(Dir, sentinel_in(Dir, Master, Address, Goal)).
+
+:- public sentinel_in/4.
+
+:- meta_predicate sentinel_in(+, +, -, 0).
+
+sentinel_in(Dir, Master, '127.0.0.1':Port, Goal) :-
+    free_port(Port),
+    directory_file_path(Dir, 'sentinel.conf', File),
+    write_file(File,
+               'bind 127.0.0.1~nport ~d~ndir ~w~n\c
+                sentinel monitor lab 127.0.0.1 ~d 1~n\c
+                sentinel down-after-milliseconds lab 1000~n\c
+                sentinel failover-timeout lab 10000~n', [Port,Dir,Master]),
+    setup_call_cleanup(launch(Port, [File,'--sentinel']),
+                       once(Goal),
+                       stop(Port)).
+
 %!  redis_restart(+Redis) is det.
 %!  redis_signal(+Redis, +Signal) is det.
 %
@@ -66,7 +93,10 @@ redis_restart(redis(Port, Dir, Options)) :-
             '--appendonly', yes, '--appendfsync', always],
            Options, Args),
     directory_file_path(Dir, 'redis.log', Log),
-    process_create(path('redis-server'), ['--logfile', Log|Args],
+    launch(Port, ['--logfile', Log|Args]).
+
+launch(Port, Args) :-
+    process_create(path('redis-server'), Args,
                    [stdin(null), stdout(null), stderr(null), process(Pid)]),
     assertz(running(Port, Pid)),
     wait_until(listens(Port), 10).

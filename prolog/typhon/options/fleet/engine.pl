@@ -6,10 +6,10 @@
             engine_run_id/2,            % +Fleet, -Id
             engine_key/3                % +Fleet, +Names, -Key
           ]).
-:- use_module(library(apply), [include/3]).
+:- use_module(library(apply), [include/3, maplist/2]).
 :- use_module(library(error), [existence_error/2]).
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(lists), [member/2, memberchk/2, nth1/3]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(redis),
@@ -60,8 +60,16 @@ its fleet.
 %
 %   @error resource_error(fleet(Fleet)): the engine does not answer
 %   @error permission_error(authenticate, fleet, Fleet)
+%   @error existence_error(option, Option): TLS needs three files
 
 engine_open(Fleet, Options) :-
+    (   option(tls(true), Options),
+        member(Option, [cacert(_), key(_), cert(_)]),
+        \+ option(Option, Options)
+    ->  functor(Option, Name, _),
+        existence_error(option, Name)
+    ;   true
+    ),
     message_queue_create(Idle),
     assertz(server(Fleet, Idle, Options)),
     catch(engine(Fleet, ping, _), Ball,
@@ -86,8 +94,9 @@ disconnect(C) :-
     catch(redis_disconnect(C, [force(true)]), error(_, _), true).
 
 %   taken(+Fleet, -C, -Age): a connection, `old` if it was used before.  If none
-%   is idle a thread makes one; at most three do so at a time, because the system
-%   may take minutes to report that a machine is not there.
+%   is idle a thread makes one, and is interrupted after a while: the system may
+%   take minutes to report that a machine is not there.  At most three do so at a
+%   time, since the search for a name is not interrupted.
 
 taken(Fleet, C, Age) :-
     (   server(Fleet, Idle, Options)
@@ -102,7 +111,8 @@ taken(Fleet, C, Age) :-
         setting(typhon_fleet:engine_seconds, Seconds),
         (   wait_within(Seconds, thread_get_message(Idle, Got))
         ->  got(Got, Fleet, C)
-        ;   goes_down(Fleet, 'it does not answer')
+        ;   forall(connecting(Fleet, Alias), interrupt(Alias)),
+            goes_down(Fleet, 'it does not answer')
         )
     ).
 
@@ -118,8 +128,8 @@ got(connection(C), _, C).
 got(failed(Why), Fleet, _) :-
     failed(Why, Fleet).
 
-failed(wrong_password, Fleet) :-
-    throw(error(permission_error(authenticate, fleet, Fleet), _)).
+failed(refused(Text), Fleet) :-
+    throw(error(permission_error(authenticate, fleet, Fleet), context(_, Text))).
 failed(down(Why), Fleet) :-
     goes_down(Fleet, Why).
 
@@ -134,17 +144,34 @@ unreachable(Fleet, Why) :-
     throw(error(resource_error(fleet(Fleet)), context(_, Why))).
 
 connect_in_thread(Fleet, Idle, Options) :-
-    ignore(( between(1, 3, N),
-             atomic_list_concat([typhon_engine, Fleet, N], '_', Alias),
-             catch(thread_create(typhon_engine:connect_for(Idle, Options), _,
-                                 [alias(Alias), detached(true)]),
-                   error(permission_error(create, thread, _), _), fail) )).
+    ignore(( connecting(Fleet, Alias),
+             started(Alias, connect_for(Idle, Options)) )).
+
+connecting(Fleet, Alias) :-
+    between(1, 3, N),
+    atomic_list_concat([typhon_engine, Fleet, N], '_', Alias).
+
+%   started(+Alias, +Goal): fails if there is a thread Alias.
+
+started(Alias, Goal) :-
+    catch(thread_create(typhon_engine:Goal, _, [alias(Alias), detached(true)]),
+          error(permission_error(create, thread, _), _), fail).
+
+interrupt(Thread) :-
+    catch(thread_signal(Thread, throw(error(timeout_error(connect, engine), _))),
+          error(_, _), true).
 
 connect_for(Idle, Options) :-
+    catch(ignore(connects(Idle, Options)),
+          error(timeout_error(connect, engine), _), true).
+
+connects(Idle, Options) :-
     catch(( connected(Options, C), Result = connection(C) ),
           error(Formal, _),
-          ( why(Formal, Why), Result = failed(Why) )),
-    catch(thread_send_message(Idle, Result), error(_, _),
+          ( Formal \= timeout_error(connect, engine),
+            why(Formal, Why),
+            Result = failed(Why) )),
+    catch(thread_send_message(Idle, Result), error(existence_error(_, _), _),
           ( Result = connection(Late) -> disconnect(Late) ; true )).
 
 connected(Options, C) :-
@@ -169,25 +196,47 @@ greeted(C, Options) :-
     ).
 
 limit(C) :-
-    arg(_, C, Stream),
-    is_stream(Stream),
-    !,
+    is_open(C, Stream),
     setting(typhon_fleet:engine_seconds, Seconds),
     set_stream(Stream, timeout(Seconds)).
 
 address(Options, Address) :-
     option(redis(Address), Options),
     !.
-address(Options, Host:Port) :-
+address(Options, Address) :-
     option(sentinel(Pool), Options),
-    option(sentinels(Sentinels), Options),
-    member(Sentinel, Sentinels),
-    catch(master(Sentinel, Pool, Host, Port), error(_, _), fail),
-    !.
-address(_, _) :-
-    throw(error(existence_error(sentinel, any), _)).
+    option(sentinels(Sentinels), Options, []),
+    setup_call_cleanup(
+        ask_all(Sentinels, Pool, Answers, Threads),
+        answer_of_one(Threads, Answers, Address),
+        ( message_queue_destroy(Answers), maplist(interrupt, Threads) )).
 
-master(Sentinel, Pool, Host, Port) :-
+%   All sentinels are asked at once: the machine of the first may be gone.
+
+ask_all(Sentinels, Pool, Answers, Threads) :-
+    message_queue_create(Answers),
+    thread_self(Self),
+    findall(Alias,
+            ( nth1(N, Sentinels, Sentinel),
+              atomic_list_concat([Self, N], '_', Alias),
+              started(Alias, ask(Sentinel, Pool, Answers)) ),
+            Threads).
+
+ask(Sentinel, Pool, Answers) :-
+    catch(( catch(master(Sentinel, Pool, Address), error(Formal, _), true),
+            thread_send_message(Answers, answer(Formal, Address)) ),
+          error(_, _), true).
+
+answer_of_one([], _, _) :-
+    throw(error(existence_error(sentinel, any), _)).
+answer_of_one([_|Threads], Answers, Address) :-
+    thread_get_message(Answers, answer(Formal, Address0)),
+    (   var(Formal)
+    ->  Address = Address0
+    ;   answer_of_one(Threads, Answers, Address)
+    ).
+
+master(Sentinel, Pool, Host:Port) :-
     redis_connect(Sentinel, C, [reconnect(false)]),
     call_cleanup(( limit(C),
                    redis(C, sentinel('get-master-addr-by-name', Pool),
@@ -225,6 +274,8 @@ answer_of(redis_error(Code, Text), Answer) :-
     !,
     (   means_down(Code)
     ->  Answer = broken(down(Text))
+    ;   means_refused(Code, Text)
+    ->  Answer = broken(refused(Text))
     ;   means_full(Code)
     ->  Answer = full(Text)
     ;   Answer = error(redis_error(Code, Text))
@@ -241,18 +292,32 @@ means_down(Code) :-
 means_full(Code) :-
     memberchk(Code, [misconf, oom]).
 
-why(redis_error(Code, _), wrong_password) :-
-    memberchk(Code, [wrongpass, noauth, noperm]),
+means_refused(Code, _) :-
+    memberchk(Code, [wrongpass, noauth, noperm]).
+means_refused(err, Text) :-             % of a script
+    sub_string(Text, 0, _, _, "The user executing the script can't").
+
+why(redis_error(Code, Text), refused(Text)) :-
+    means_refused(Code, Text),
     !.
 why(redis_error(_, Text), down(Text)) :-
     !.
 why(Formal, down(Why)) :-
     format(atom(Why), '~p', [Formal]).
 
+%   After an error the library may have closed C; used again it would connect anew
+%   by itself, without a limit and without the password.
+
+is_open(C, Stream) :-
+    arg(_, C, Stream),
+    is_stream(Stream),
+    !.
+
 give_back(Answer, Fleet, C) :-
     (   nonvar(Answer),
         \+ functor(Answer, broken, 1),
         \+ functor(Answer, stale, 1),
+        is_open(C, _),
         server(Fleet, Idle, _),
         catch(thread_send_message(Idle, connection(C)), error(_, _), fail)
     ->  true
