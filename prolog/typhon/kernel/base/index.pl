@@ -151,6 +151,7 @@ part_setting(engine_pause,typhon_fleet,number,0.5,'Seconds for which an engine t
 part_setting(engine_seconds,typhon_fleet,number,2,'Seconds after which an engine that does not answer counts as down','options/fleet/engine').
 part_setting(entries,typhon_fipa_managers,positive_integer,10000,'Descriptions in a directory of FIPA','bridges/fipa/managers').
 part_setting(events,typhon_watch_senders,positive_integer,10000,'Events that may wait for a slow watch','options/watch/watch_senders').
+part_setting(fenced_exit,typhon_fleet,boolean,true,'A process without a terminal ends when another one has its address or its journal','options/fleet/takeover').
 part_setting(files,typhon_loaded,nonneg,64,'Programs remembered as they were read','language/programs').
 part_setting(frame_events,typhon_page_browsers,positive_integer,2000,'Events in a text that a page sends','tools/page/browsers').
 part_setting(frame_seconds,typhon_page_browsers,number,0.05,'Seconds between two texts with events that a page sends','tools/page/browsers').

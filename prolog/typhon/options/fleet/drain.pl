@@ -11,8 +11,8 @@
 :- use_module('../../kernel/base/options', [check_options/2]).
 :- use_module('../../kernel/host', [host/3, host_resolve/2]).
 :- use_module('../../kernel/lifecycle', [agent_move/3]).
-:- use_module(members, [fleet_host/3, fleet_tell/2]).
-:- use_module(tags, [hosts_of_fleet/3]).
+:- use_module(members, [fleet_host/3, fleet_told/1]).
+:- use_module(tags, [choices_forget/1, hosts_of_fleet/3]).
 
 /** <module> A host that is drained: its agents go elsewhere, and it leaves
 
@@ -94,12 +94,13 @@ others(Fleet, To, Name, Others) :-
 %   Agents that arrive meanwhile leave, too; what did not go in time stays.
 
 drain(Fleet, Name, To, Options, Stay) :-
-    fleet_tell(Fleet, beat),
+    ignore(fleet_told(Fleet)),
+    choices_forget(Fleet),
     option(seconds(Seconds), Options, 60),
     deadline(Seconds, Deadline),
     all_leave(Fleet, Name, To, Deadline, [], Stay),
     assertz(drained(Name)),
-    fleet_tell(Fleet, beat).
+    ignore(fleet_told(Fleet)).
 
 all_leave(Fleet, Name, To, Deadline, Tried, Stay) :-
     findall(Id, ( agent_here(Id, Name, _, _, _), \+ memberchk(Id, Tried) ), Ids),

@@ -5,7 +5,8 @@
             fleet_member/4,             % ?Fleet, -Endpoint, -Token, -Epoch
             fleet_host/3,               % ?Host, ?Fleet, -Tags
             must_be_fleet/1,            % +Fleet
-            fleet_tell/2                % +Fleet, +Message
+            fleet_tell/2,               % +Fleet, +Message
+            fleet_told/1                % +Fleet
           ]).
 :- use_module(library(error), [existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(lists), [append/2, append/3, member/2]).
@@ -153,6 +154,16 @@ fleet_joined(Fleet, Options) :-
 fleet_member(Fleet, Endpoint, Token, Epoch) :-
     member(Fleet, Endpoint, Token, Epoch).
 
+%!  fleet_told(+Fleet) is semidet.
+%
+%   The engine knows what is true of the hosts of this process now.  Fails if it
+%   does not answer within a lease.
+
+fleet_told(Fleet) :-
+    fleet(Fleet, Server, Options),
+    lease(Options, Seconds),
+    server_call(Server, registered, Seconds, true).
+
 %!  fleet_tell(+Fleet, +Message) is det.
 %
 %   The thread of Fleet handles Message, see order/2; or `beat`, at once.
@@ -203,9 +214,8 @@ typhon_host_parts:ends(_) :-
 
 typhon_hosting:started(Host) :-
     (   host_option(Host, fleet(Fleet)),
-        fleet(Fleet, Server, Options)
-    ->  lease(Options, Seconds),
-        (   server_call(Server, registered, Seconds, true)
+        fleet(Fleet, _, _)
+    ->  (   fleet_told(Fleet)
         ->  true
         ;   print_message(warning, typhon(fleet_later(Host, Fleet)))
         )

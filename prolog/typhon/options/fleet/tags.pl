@@ -1,5 +1,6 @@
 :- module(typhon_fleet_tags,
-          [ hosts_of_fleet/3            % +Fleet, -Hosts, +Options
+          [ hosts_of_fleet/3,           % +Fleet, -Hosts, +Options
+            choices_forget/1            % +Fleet
           ]).
 :- use_module(library(error), [existence_error/2, must_be/2, resource_error/1]).
 :- use_module(library(lists), [member/2, memberchk/2]).
@@ -141,6 +142,13 @@ typhon_hosts:one_of(any(Tag), Host) :-
     ->  true
     ;   resource_error(hosts(Tag))
     ).
+
+%!  choices_forget(+Fleet) is det.
+%
+%   The next choice asks the engine.
+
+choices_forget(Fleet) :-
+    retractall(choice(Fleet, _, _, _)).
 
 %   loads(+Fleet, +Tags, -Until, -Loads): asked without a lock.
 

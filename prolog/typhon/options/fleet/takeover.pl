@@ -4,6 +4,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(thread), [concurrent_forall/3]).
 :- use_module(library(socket), [tcp_bind/2, tcp_close_socket/1, tcp_socket/1]).
 :- use_module('../../kernel/base/on_demand', [on_demand_call/3]).
@@ -25,7 +26,7 @@ restart.  The first process that asks for such journals gets it, and starts a
 stand-in; others connect to that instead.
 
 A process that finds its address or journal with another one sends nothing any
-more: its hosts rest, and it ends with status 75.
+more: its hosts rest, and it ends with status 75, unless a person sits at it.
 
 *Threading*: as the comments say.
 */
@@ -40,6 +41,10 @@ more: its hosts rest, and it ends with status 75.
     typhon_members:stands_at/2,
     typhon_on_demand:joins/2,
     typhon_store:fenced/1.
+
+:- setting(typhon_fleet:fenced_exit, boolean, true,
+           "A process without a terminal ends when another one has its address or \c
+            its journal").
 
 :- dynamic
     given_up/0,
@@ -74,9 +79,10 @@ gives_up(Message) :-
 rest :-
     hosts_rest,
     retractall(given_up),
-    (   stream_property(user_input, tty(true))
-    ->  true                            % a person decides
-    ;   halt(75)
+    (   setting(typhon_fleet:fenced_exit, true),
+        \+ stream_property(user_input, tty(true))
+    ->  halt(75)
+    ;   true                            % a person decides
     ).
 
                 /*******************************
