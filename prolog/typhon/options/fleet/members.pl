@@ -5,7 +5,7 @@
             fleet_member/4,             % ?Fleet, -Endpoint, -Token, -Epoch
             fleet_host/3,               % ?Host, ?Fleet, -Tags
             must_be_fleet/1,            % +Fleet
-            fleet_tell/2,               % +Fleet, +Message
+            fleet_beat/1,               % +Fleet
             fleet_told/1                % +Fleet
           ]).
 :- use_module(library(error), [existence_error/2, must_be/2, permission_error/3]).
@@ -28,7 +28,7 @@
 Each fleet that this process has joined has a thread, which alone changes what
 the engine stores of this process.  Three times in a lease it renews the lease,
 with the hosts of this process, their tags and loads; it also does what other
-modules add by the hooks work/1 and order/2.
+modules add by the hooks work/1 and beaten/3.
 
 *Threading*: any thread; the thread of the fleet where a comment says so.
 */
@@ -40,7 +40,6 @@ modules add by the hooks work/1 and order/2.
     is_gone/1,                  % Host: it has left its fleet, and runs
     is_new/1,                   % Fleet: the engine did not know this process
     journal/3,                  % Fleet, -Name, -Token: of this process
-    order/2,                    % Message, Fleet: of fleet_tell/2
     prolog:error_message//1,
     prolog:message//1,
     recovers/1,                 % Fleet: this process opens journals of others
@@ -84,7 +83,7 @@ join_fleet(Fleet, Options) :-
     on_demand_load(fleet, joined),
     with_mutex(typhon_members, join(Fleet, Options)),
     forall(( host(Host, _, _), host_option(Host, fleet(Fleet)) ),
-           fleet_tell(Fleet, beat)).
+           fleet_beat(Fleet)).
 
 join(Fleet, _) :-
     fleet(Fleet, _, _),
@@ -164,13 +163,14 @@ fleet_told(Fleet) :-
     lease(Options, Seconds),
     server_call(Server, registered, Seconds, true).
 
-%!  fleet_tell(+Fleet, +Message) is det.
+%!  fleet_beat(+Fleet) is det.
 %
-%   The thread of Fleet handles Message, see order/2; or `beat`, at once.
+%   The thread of Fleet renews the lease, and states the hosts of this process,
+%   at once.
 
-fleet_tell(Fleet, Message) :-
+fleet_beat(Fleet) :-
     (   fleet(Fleet, Server, _)
-    ->  ignore(server_cast(Server, Message))
+    ->  ignore(server_cast(Server, beat))
     ;   true
     ).
 
@@ -205,10 +205,10 @@ typhon_host_parts:check(Options) :-
 typhon_host_parts:changeable(tags(_)).
 
 typhon_hosting:begins(Host) :-
-    forall(host_option(Host, fleet(Fleet)), fleet_tell(Fleet, beat)).
+    forall(host_option(Host, fleet(Fleet)), fleet_beat(Fleet)).
 
 typhon_host_parts:ends(_) :-
-    forall(fleet(Fleet, _, _), fleet_tell(Fleet, beat)).
+    forall(fleet(Fleet, _, _), fleet_beat(Fleet)).
 
 %   host_start/2 waits until others can find the host.
 
@@ -269,8 +269,6 @@ handled(call(registered, Caller), Fleet, Options, due(_, Report),
 handled(stop, Fleet, _, State, State) :-
     quietly(reports(Fleet)),
     quietly(gives_back(Fleet)).
-handled(order(Order), Fleet, _, State, State) :-
-    quietly(order(Order, Fleet)).
 
 %   An engine that does not answer is no news: all is tried again.
 

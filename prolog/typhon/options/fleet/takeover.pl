@@ -14,7 +14,7 @@
 :- use_module('../../kernel/wire', [endpoint_address/1]).
 :- use_module(engine, [engine/3, engine_key/3]).
 :- use_module(members,
-              [fleet_joined/2, fleet_tell/2, join_fleet/2]).
+              [fleet_beat/1, fleet_joined/2, join_fleet/2]).
 :- use_module(tags, [hosts_of_fleet/3]).
 
 /** <module> Processes that stand in for others, and those that were replaced
@@ -163,7 +163,7 @@ stand_in :-
     hosts_go_on,
     meet(Fleet, Endpoint),
     retractall(meeting),
-    fleet_tell(Fleet, beat),
+    fleet_beat(Fleet),
     thread_get_message(typhon_never).
 
 journal_call(Goal) :-
