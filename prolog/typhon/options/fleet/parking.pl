@@ -390,10 +390,12 @@ taken(["agent",Id0,To0,Why,Text], Fleet, Token) :-
         parcel_of(Parcel0, Id)
     ->  let_in(Why, Parcel0, Peer, Parcel),
         arg(2, Parcel, To),
-        parcel_admit(Parcel, Peer, Answer),
-        admitted(Answer, To, Fleet, Id, Token)
-    ;   unreadable(Id)
-    ).
+        parcel_admit(Parcel, Peer, Answer)
+    ->  true
+    ;   unreadable(Id),
+        Answer = refused(error(syntax_error(parcel)))
+    ),
+    admitted(Answer, To, Fleet, Id, Token).
 
 is_mail(Mail) :-
     subsumes_term(mail(_, _, _), Mail),

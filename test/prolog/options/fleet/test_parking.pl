@@ -318,6 +318,41 @@ test(agent_that_came_before_is_not_let_in_again, Result == [none,Robot,1]) :-
                  agent_send(A, last),
                  agent_result(A, Result, 60) )).
 
+test(damaged_agent_returns_and_delays_no_other,
+     [ forall(member(Damage, [ 'parcel(', 'x.', '',
+                               'parcel(a,b,image(a,b,c,d,e,f,g),x-y,p).' ])),
+       Result == [none,Robot,1] ]) :-
+    with_robot([fsync(always)], [], Redis, Robot,
+               ( peer_kill(robot),
+                 visitor(Robot, 600, A),
+                 gone([A]),
+                 visitor(Robot, 600, B),
+                 gone([A,B]),
+                 redis_line(Redis, [hset, 'f:{lab}:parcels', A, Damage], _),
+                 peer_restart(robot),
+                 agent_send(B, last),
+                 agent_result(B, Result, 60),
+                 address(alpha, Alpha),
+                 capturing(wait_until(( fleet_parked(lab, Parked),
+                                        Parked = [parked(A, Alpha, _, _)] ),
+                                      30), _) )).
+
+test(damaged_letter_delays_no_other, Result == [none,Robot,1,hello]) :-
+    with_robot([fsync(always)], [], Redis, Robot,
+               ( peer_kill(robot),
+                 visitor(Robot, 600, A),
+                 gone([A]),
+                 atomic_list_concat([_,Endpoint], @, Robot),
+                 atom_concat('f:{lab}:park:', Endpoint, Key),
+                 forall(member(Text, ['[', '[mail(_,_,_)].', 'mail(a,b,c).']),
+                        redis_line(Redis, [xadd, Key, *, mail, Text, id, A, text,
+                                           Text],
+                                   _)),
+                 agent_send(A, hello),
+                 agent_send(A, last),
+                 peer_restart(robot),
+                 agent_result(A, Result, 60) )).
+
 test(agent_waits_until_its_host_is_started, Result == [none,Arm,1,hello]) :-
     with_robot([fsync(always)], [], Redis, Robot,
                ( peer_do(robot, host_start(arm, [fleet(lab)])),

@@ -101,7 +101,7 @@ end
 
 local function drop_entry(e, entry, bytes)
   if call('XDEL', p..'park:'..e, entry) == 1
-     and call('HINCRBY', p..'bytes', e, -bytes) <= 0
+     and call('HINCRBY', p..'bytes', e, 0 - bytes) <= 0
      and call('XLEN', p..'park:'..e) == 0 then
     call('HDEL', p..'bytes', e)
     call('DEL', p..'park:'..e)
