@@ -221,6 +221,29 @@ robot_returns(Redis, Robot) :-
     assertion(length(Results, 20)),
     wait_until(test_parking:nothing_is_left(Redis), 10).
 
+killed_while_it_takes(Redis, Robot) :-
+    peer_kill(robot),
+    findall(A, ( between(1, 40, _), visitor(Robot, 600, A) ), Agents),
+    gone(Agents),
+    send_all(Agents, [1,2,last]),
+    forall(between(1, 3, _),
+           ( peer_restart(robot),
+             wait_until(test_parking:some_are_taken(Redis, 40), 30),
+             peer_kill(robot) )),
+    peer_restart(robot),
+    results(Agents, Results),
+    assertion(forall(member(R, Results), R == [none,Robot,1,1,2])),
+    assertion(length(Results, 40)),
+    wait_until(test_parking:nothing_is_left(Redis), 30).
+
+some_are_taken(Redis, _) :-
+    redis_line(Redis, [exists, 'f:{lab}:claimed'], ["1"]),
+    !.
+some_are_taken(Redis, Most) :-
+    redis_line(Redis, [hlen, 'f:{lab}:parked'], [Text]),
+    number_string(Count, Text),
+    Count < Most.
+
 %   forgets(+Redis, :Goal): the engine is started again without what it has stored
 %   while Goal was called.
 
@@ -555,5 +578,10 @@ test(agent_arrives_once_though_both_processes_were_killed,
                arrived(robot),
                assertion(peer_do(base, agents_here([]))) ),
              Got))).
+
+test(host_that_is_killed_while_it_takes_agents_has_each_once) :-
+    with_tmp_dir(Dir,
+        with_robot([fsync(always)], [journal(Dir)], Redis, Robot,
+                   killed_while_it_takes(Redis, Robot))).
 
 :- end_tests(parking_faults).
