@@ -7,6 +7,7 @@
 :- use_module('../../../lib/peers').
 :- use_module('../../../lib/redis').
 :- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(apply), [exclude/3]).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex),
               [delete_directory_and_contents/1, directory_file_path/3]).
@@ -221,6 +222,14 @@ robot_returns(Redis, Robot) :-
     assertion(length(Results, 20)),
     wait_until(test_parking:nothing_is_left(Redis), 10).
 
+%   restart_outside(+Peer): its host is in no fleet.
+
+restart_outside(Peer) :-
+    retract(test_peers:host(Peer, Address, (_, host_start(Peer, Options0)))),
+    exclude(==(fleet(lab)), Options0, Options),
+    assertz(test_peers:host(Peer, Address, host_start(Peer, Options))),
+    peer_restart(Peer).
+
 killed_while_it_takes(Redis, Robot) :-
     peer_kill(robot),
     findall(A, ( between(1, 40, _), visitor(Robot, 600, A) ), Agents),
@@ -314,6 +323,24 @@ test(agent_that_cannot_be_sent_stays_parked,
                  fleet_park_drop(lab, A),
                  agent_send(A, last),
                  agent_result(A, _, 60) )).
+
+test(operator_sends_an_agent_to_a_host_that_has_left_the_fleet,
+     Result == [none,Robot,1,hello]) :-
+    with_robot([fsync(always)], [], Redis, Robot,
+               ( peer_kill(robot),
+                 visitor(Robot, 600, A),
+                 gone([A]),
+                 agent_send(A, hello),
+                 restart_outside(robot),
+                 fleet_park_send(lab, A),
+                 parked([]),
+                 peer_do(robot, agent_here(A)),
+                 redis_address(Redis, Address),
+                 peer_do(robot, ( fleet_join(lab, [redis(Address),lease(1)]),
+                                  host_start(arm, [fleet(lab)]) )),
+                 wait_until(test_parking:nothing_is_left(Redis), 20),
+                 agent_send(A, last),
+                 agent_result(A, Result, 60) )).
 
 test(agent_of_no_fleet_does_not_wait,
      Result == [host_unreachable(Host),Alpha,0]) :-
