@@ -27,5 +27,5 @@ This is the interface of the layer: higher layers import from here.
               retries_go_on/0 ]).
 :- reexport(travel/sender_authorization,
             [ mail_accepted/5, peer_may_send_for/3, sender_accepted/1,
-              senders_check/1, with_proof/5 ]).
+              senders_check/1, senders_checked/0, with_proof/5 ]).
 :- reexport(travel/news, [news_carried/1, news_hurry/0, news_send/3]).

@@ -7,7 +7,7 @@
 :- use_module(library(lists), [append/2, append/3, member/2]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../../kernel/agent', [agent_home_endpoint/2]).
+:- use_module('../../kernel/agent', [agent_home/2, agent_home_endpoint/2]).
 :- use_module('../../kernel/base/durable',
               [ after_unit/1, durable/5, durable_assertz/1, durable_drop/3,
                 durable_on/0, durable_restores/0, sync_changes/0,
@@ -19,8 +19,8 @@
               [address_parts/3, alarm_in/3, host/3, scheduler_call/1]).
 :- use_module('../../kernel/travel',
               [ mail_admit/3, mail_lost/3, news_send/3, parcel_admit/3,
-                parcel_returned/3, transfer_arrived/1, transfer_parcel/2,
-                transfer_stays/2 ]).
+                parcel_returned/3, senders_checked/0, transfer_arrived/1,
+                transfer_parcel/2, transfer_stays/2 ]).
 :- use_module('../../kernel/wire',
               [endpoint_address/1, endpoint_call/5, mobile_term/1]).
 :- use_module(engine, [engine_run_id/2, engine_script/4]).
@@ -205,11 +205,13 @@ is_parked(Transfer) :-
                 *******************************/
 
 %   The letter is noted in the unit of work in which it leaves, and parked after
-%   the commit.
+%   the commit.  Where senders are checked, mail_admit/3 would refuse messages of
+%   agents, whose proofs are not kept.
 
 typhon_mail:mail_kept(Formal, Id, Mail) :-
     fleet_joined(_, _),
     atom(Id),
+    \+ ( senders_checked, is_from_agent(Mail) ),
     catch(term_text(Mail, Text), error(_, _), fail),
     fits(Text),
     letter_asked(Id, '', "", Answer),
@@ -226,6 +228,12 @@ typhon_mail:mail_kept(Formal, Id, Mail) :-
     ->  after_unit(typhon_parking:letters_soon(Id))
     ;   letters_sent(Id)
     ).
+
+is_from_agent(Mail) :-
+    member(mail(_, From, _), Mail),
+    atom(From),
+    agent_home(From, _),
+    !.
 
 :- durable(fleet_letter, Id, N, Letter, letter(Id, N, Letter)).
 

@@ -500,6 +500,19 @@ test(letters_that_an_engine_has_lost_are_sent_again,
                  peer_restart(robot),
                  agent_result(A, Result, 60) )).
 
+test(where_senders_are_checked_messages_of_agents_are_not_kept) :-
+    with_robot([fsync(always)], [], _, Robot,
+               ( peer_kill(robot),
+                 visitor(Robot, 600, A),
+                 gone([A]),
+                 setup_call_cleanup(
+                     typhon_travel:senders_check(true),
+                     ( assertion(\+ typhon_mail:mail_kept(none, A,
+                                                          [mail(none,A,1)])),
+                       assertion(typhon_mail:mail_kept(none, A,
+                                                       [mail(none,user,1)])) ),
+                     typhon_travel:senders_check(false)) )).
+
 :- end_tests(parking_mail).
 
 :- begin_tests(parking_faults).
