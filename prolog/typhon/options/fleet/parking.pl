@@ -205,8 +205,8 @@ is_parked(Transfer) :-
                 *******************************/
 
 %   The letter is noted in the unit of work in which it leaves, and parked after
-%   the commit.  Where senders are checked, mail_admit/3 would refuse messages of
-%   agents, whose proofs are not kept.
+%   the commit.  Where senders are checked, mail_admit/3 would refuse messages
+%   of agents, whose proofs are not kept.
 
 typhon_mail:mail_kept(Formal, Id, Mail) :-
     fleet_joined(_, _),
@@ -286,8 +286,8 @@ forget_sure(Id, Runs) :-
              memberchk(Run, Runs) ),
            letter_over(Id, N, letter(Name, Formal, Mail))).
 
-%   All that an engine may have lost since it was started again is sent again, in
-%   order.
+%   All that an engine may have lost since it was started again is sent again,
+%   in order.
 
 send_letters(Id, Runs, Answer) :-
     (   letter(Id, N, Letter),

@@ -16,7 +16,7 @@
 --   park:E    stream  agents and letters that wait for the process at E:
 --                     agent address id I why W, or mail name id I text T
 --   parked    hash    id -> hops, E, entry in its stream, when it goes back,
---                     the address that it left, where it waits to go, since when
+--                     the address that it left, where it is to go, since when
 --   parcels   hash    id -> text of a parked agent
 --   due       zset    id -> when it goes back
 --   claimed   hash    id -> token of a process that may have let it in
@@ -89,6 +89,11 @@ local function parked(id)
     '^(.-)\n(.-)\n(.-)\n(.-)\n(.-)\n(.-)\n(.*)$')
   return {hops = tonumber(hops), e = e, entry = entry, till = till,
           from = from, to = to, since = since}
+end
+
+local function is_full(e, most, most_bytes, more)
+  return call('XLEN', p..'park:'..e) >= tonumber(most)
+    or tonumber(call('HGET', p..'bytes', e) or '0') + more > tonumber(most_bytes)
 end
 
 local function put_agent(id, a, why)

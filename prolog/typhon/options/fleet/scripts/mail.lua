@@ -15,10 +15,7 @@ if not e then
   if e == own or call('HEXISTS', p..'ends:'..home, id) == 1 then e = nil end
 end
 if not e then return 'none' end
-if call('XLEN', p..'park:'..e) >= tonumber(ARGV[5])
-   or tonumber(call('HGET', p..'bytes', e) or '0') + #text > tonumber(ARGV[6]) then
-  return 'full'
-end
+if is_full(e, ARGV[5], ARGV[6], #text) then return 'full' end
 if text ~= '' then
   call('SET', letter, 1, 'EX', 3600)
   put_letter(e, ARGV[4], id, text)

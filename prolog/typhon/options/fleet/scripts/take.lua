@@ -21,7 +21,8 @@ for i = first, #ARGV do
 end
 
 local out, last, bytes = {}, '', 0
-for _, row in ipairs(call('XRANGE', p..'park:'..e, '('..ARGV[4], '+', 'COUNT', 32)) do
+local rows = call('XRANGE', p..'park:'..e, '('..ARGV[4], '+', 'COUNT', 32)
+for _, row in ipairs(rows) do
   local f = row[2]
   local id, text = f[4], f[6]
   local a = parked(id)
