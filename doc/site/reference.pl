@@ -86,6 +86,7 @@ task(library, "Link hosts, and ask them",
      [ typhon_administration:[host_property/2, link/2, link/3, unlink/2,
                               remote/2] ]).
 task(library, "Start networks, and read their logs", [typhon_network]).
+task(library, "Fleets of machines, and their hosts", [typhon_fleets]).
 task(library, "Check programs", [typhon_checks]).
 task(library, "Create agents", [typhon_creation]).
 task(library, "Write to agents, and order them about",

@@ -20,12 +20,13 @@
 
 :- use_module('../../app/packaging/parts', [installed/1, left_out/2]).
 :- use_module('../lib/common').
+:- use_module('../lib/redis', [redis_address/2, with_redis/2]).
 :- use_module('../lib/texts', [write_file/2, file_lines/2]).
 :- use_module('../lib/transcript', [transcript_differences/4]).
 :- use_module('../lib/documents',
               [document/1, outside/3, prose/2]).
 :- use_module('../../doc/site/markdown', [link_target/2]).
-:- use_module(library(apply), [exclude/3, maplist/2]).
+:- use_module(library(apply), [exclude/3, maplist/2, maplist/3]).
 :- use_module(library(filesex),
               [ directory_file_path/3, directory_member/3,
                 make_directory_path/1 ]).
@@ -338,6 +339,7 @@ broken_links_in(Text, Links, Dir) :-
 
 needs('doc/journal.md', journal).
 needs('doc/security.md', cells).
+needs('doc/fleets.md', fleet).
 
 needing(Group, File) :-
     needs(Document, Group),
@@ -380,6 +382,23 @@ differences(File, Terminal, Differences) :-
     blocks(File, Blocks),
     with_tmp_dir(run_blocks(Blocks, Terminal, Differences)).
 
+%   The engine of documents is at port 6379.
+
+differences_with_engine(File, Differences) :-
+    blocks(File, Blocks0),
+    with_redis(Redis,
+               ( redis_address(Redis, _:Port),
+                 maplist(at_port(Port), Blocks0, Blocks),
+                 with_tmp_dir(run_blocks(Blocks, terminal(80, true),
+                                         Differences)) )).
+
+at_port(Port, block(Kind, N, Lines0), block(Kind, N, Lines)) :-
+    text(Lines0, Text0),
+    atomic_list_concat(Parts, '6379', Text0),
+    atomic_list_concat(Parts, Port, Text),
+    split_string(Text, "\n", "", Split),
+    append(Lines, [""], Split).
+
 %   What users search for is the subject of a section, see test_search, too.
 
 asked_for(Word) :-
@@ -420,6 +439,10 @@ test(sessions_with_a_journal_answer_as_shown,
      [ condition(missing([python3, journal], [])), Differences == [], nondet ]) :-
     needing(journal, File),
     differences(File, terminal(80, true), Differences).
+test(sessions_with_a_fleet_answer_as_shown,
+     [ condition(missing([python3, fleet], [])), Differences == [], nondet ]) :-
+    needing(fleet, File),
+    differences_with_engine(File, Differences).
 test(sessions_with_cells_answer_as_shown,
      [ condition(missing([python3, cells], [])), Differences == [], nondet ]) :-
     needing(cells, File),

@@ -13,6 +13,7 @@
 :- use_module('../lib/common').
 :- use_module('../lib/documents', [document/1]).
 :- use_module('../lib/quick_swipl', [quick_swipl/3]).
+:- use_module('../lib/redis', [with_redis/3]).
 :- use_module('../lib/texts', [write_file/2, file_lines/2]).
 :- use_module(library(apply), [foldl/4]).
 :- use_module(library(debug), [assertion/1]).
@@ -26,7 +27,7 @@
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(typhon)).
 
-:- needs([core, journal, openssl, 'page-tools']).
+:- needs([core, fleet, journal, openssl, 'page-tools']).
 
                 /*******************************
                 *           COMMANDS           *
@@ -188,6 +189,9 @@ names(Dir, [ "9700"-Port1, "5001"-Port2,
     directory_file_path(Dir, lizzy, Lizzy),
     findall(Shown-Text, here(Shown, Text), Names).
 
+here("6379", Port) :-
+    engine(Port).
+here("redis.example.org", "127.0.0.1").
 here("10.0.0.5", "127.0.0.2").
 here("10.0.0.7", "127.0.0.3").
 here("agents/visitor.pl", "visitor.pl").
@@ -406,6 +410,25 @@ end_servers :-
 
 :- dynamic server/2.                    % Pid, File
 
+%   The engine of fleets, where the document has some.
+
+:- dynamic engine/1.                    % Port
+
+:- meta_predicate with_engine(+, 0).
+
+with_engine(File, Goal) :-
+    commands(File, Commands),
+    member(Command, Commands),
+    sub_string(Command, _, _, _, "--fleet="),
+    !,
+    with_redis(['--bind', '127.0.0.1', '127.0.0.2', '--requirepass', secret,
+                '--user', lab, on, '>secret', '~*', '+@all'],
+               redis(Port, _, _),
+               setup_call_cleanup(assertz(engine(Port)), Goal,
+                                  retractall(engine(_)))).
+with_engine(_, Goal) :-
+    call(Goal).
+
                 /*******************************
                 *             FILES            *
                 *******************************/
@@ -465,6 +488,7 @@ prepare(Dir) :-
 
 file_of('.typhon.cookie', "a cookie of this test").
 file_of('program.pl', "p.\n").
+file_of('redis.password', "secret\n").
 file_of('run.log', "event(0.0,'n1@127.0.0.1:9',none,started).\n").
 file_of('bin/python3', "#!/bin/sh\nexec /usr/bin/python3 \"$@\"\n").
 file_of('bin/scp', "#!/bin/sh\ncp \"$1\" \"$HOME/there/${2#*:}\"\n").
@@ -479,7 +503,7 @@ copy_of('my.pl', 'examples/studies/coverage.pl').
 
 test(commands_run,
      [ forall(document_with_commands(File)), Failed == [] ]) :-
-    with_tmp_dir(run_document(File, Failed)).
+    with_tmp_dir(Dir, with_engine(File, run_document(File, Failed, Dir))).
 
 %   test_course checks hand-ins as the course does.
 

@@ -55,7 +55,7 @@ This is the interface of the layer; its modules are loaded when they are used.
 %     - redis(Host:Port): the engine; or sentinel(Name) and sentinels(List), the
 %       addresses of sentinels that know it
 %     - user(User), password(Password): default user is `default`
-%     - tls(true), with cacert(File), key(File), cert(File); the name of the
+%     - tls(true), with cacert(File), key(File) and cert(File); the name of the
 %       server is not compared with its certificate
 %     - lease(Seconds): a member that is silent for so long is away; default 3
 %     - report(Seconds): how often it is reported where agents are; default 1
@@ -67,9 +67,11 @@ This is the interface of the layer; its modules are loaded when they are used.
 %       command does, with `{endpoint}` and `{journal}` replaced
 %
 %   @error permission_error(join, fleet, Fleet): it is a member already
-%   @error existence_error(option, redis), domain_error(fleet_option, Option)
+%   @error existence_error(option, Option): `redis`, or a file for TLS
+%   @error domain_error(fleet_option, Option), domain_error(fleet_name, Fleet)
 %   @error resource_error(fleet(Fleet)): the engine does not answer
-%   @error permission_error(authenticate, fleet, Fleet)
+%   @error permission_error(authenticate, fleet, Fleet): the engine refuses the
+%   user, the password or a command; each predicate below may raise it, too
 
 fleet_join(Fleet, Options) :-
     join_fleet(Fleet, Options).
