@@ -25,6 +25,10 @@ engine_option(password_file, file(read), 'FILE',
 engine_option(cacert, file(read), 'FILE',
               'with --fleet: use TLS; certificate of the authority of the \c
                engine').
+engine_option(cert, file(read), 'FILE',
+              'with --cacert: certificate of this process').
+engine_option(key, file(read), 'FILE',
+              'with --cacert: private key of that certificate').
 
 %!  engine_options(+Program, +Options:list, -FleetOptions:list) is det.
 %
@@ -68,6 +72,8 @@ for_engine(_, Options, password(Password)) :-
     option(password_file(File), Options),
     read_file_to_string(File, Text, []),
     split_string(Text, "\n", "\r", [Password|_]).
+for_engine(_, Options, tls(true)) :-
+    option(cacert(_), Options).
 for_engine(_, Options, Option) :-
-    option(cacert(File), Options),
-    member(Option, [tls(true), cacert(File)]).
+    member(Option, [cacert(_), cert(_), key(_)]),
+    option(Option, Options).

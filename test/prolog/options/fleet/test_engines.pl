@@ -11,8 +11,9 @@
 :- use_module('../../../lib/redis').
 :- use_module('../../../lib/texts', [file_lines/2]).
 :- use_module('../../../lib/vanishing_relay').
+:- use_module('../../../../app/typhon/engine_options', [engine_options/3]).
 :- use_module(library(debug), [assertion/1]).
-:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(filesex), [directory_file_path/3, directory_member/3]).
 :- use_module(library(lists), [append/3, member/2, memberchk/2]).
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
@@ -106,6 +107,15 @@ test(plain_connection_is_refused,
      throws(error(resource_error(fleet(lab)), _))) :-
     with_tls(_, Address, in_fleet([redis(Address)], true)).
 
+test(options_of_the_command_line_reach_the_engine, Names == []) :-
+    with_tls(Dir, Address,
+             ( keys(Dir, member, Keys),
+               Address = Host:Port,
+               atomic_list_concat([Host,Port], :, Redis),
+               engine_options(host, [fleet(lab), redis(Redis)|Keys], Joins),
+               fleet_join(lab, Joins),
+               call_cleanup(fleet_hosts(lab, Names, []), fleet_leave(lab)) )).
+
 test(files_are_needed, [ forall(member(Option, [cacert,key,cert])),
                          throws(error(existence_error(option, Option), _)) ]) :-
     Files = [cacert(a), key(b), cert(c)],
@@ -121,8 +131,9 @@ acl(Rule) :-
     file_lines(File, Lines),
     member(Line, Lines),
     string_concat("    user ", Rule0, Line),
-    !,
     atomic_list_concat(Parts, 'SECRET', Rule0),
+    Parts = [_,_],
+    !,
     atomic_list_concat(Parts, secret, Rule).
 
 :- meta_predicate with_user(-, 0).
@@ -150,6 +161,29 @@ all_done(Names) :-
 registered(Agent) :-
     typhon_registry:asked(agents, Agent, _).
 
+%   refuses(+Redis, +User, +Command): Command with as few arguments as it has.
+
+refuses(Redis, User, Command) :-
+    redis_line(Redis, [command,info,Command], [_,Text|_]),
+    number_string(Arity, Text),
+    Count is abs(Arity)-1,
+    findall('f:{lab}:x', between(1, Count, _), Args),
+    redis_line(Redis, [acl,dryrun,User,Command|Args], [Line|_]),
+    sub_string(Line, _, _, _, "no permissions to run").
+
+command_of_script(Command) :-
+    project_file('prolog/typhon/options/fleet/scripts', Dir),
+    findall(C, ( directory_member(Dir, File, [extensions([lua])]),
+                 file_lines(File, Lines),
+                 member(Line, Lines),
+                 split_string(Line, "'", "", Parts),
+                 append(_, [Before,C|_], Parts),
+                 string_concat(_, "call(", Before) ),
+            Commands0),
+    sort(Commands0, Commands),
+    assertion(memberchk("ZADD", Commands)),
+    member(Command, Commands).
+
 :- begin_tests(engine_users).
 
 %   All that a fleet does, with the rights that the document gives.
@@ -161,6 +195,15 @@ test(rights_of_the_document_suffice, Names == [beta]) :-
                                           host([ fleet(lab), tags([x]),
                                                  journal(redis('lab/b')) ]) ]],
                                   all_done(Names)))).
+
+test(each_command_of_a_script_is_permitted, Refused == []) :-
+    acl(Rule),
+    split_string(Rule, " ", "", [User|Words]),
+    with_redis(['--user',User|Words], Redis,
+               findall(Command,
+                       ( command_of_script(Command),
+                         refuses(Redis, User, Command) ),
+                       Refused)).
 
 test(rights_end_at_the_keys_of_the_fleet,
      [ forall(member(Command, [ flushall, get('f:{other}:epoch'), keys(*),
