@@ -49,14 +49,14 @@ local function lives(e, now)
   return lapses and now < lapses + (call('HGET', p..'p:'..e, 'ttl') or 0)
 end
 
-local function each_tag(host, f)
+local function each_tag(tags, f)
   f('')
-  local tags = call('HGET', p..'hosts', host) or ''
-  for tag in string.gmatch(tags, '[^\n]+') do f(tag) end
+  for tag in string.gmatch(tags or '', '[^\n]+') do f(tag) end
 end
 
 local function forget_host(e, host)
-  each_tag(host, function (tag) call('ZREM', p..'tag:'..tag, host) end)
+  each_tag(call('HGET', p..'hosts', host),
+           function (tag) call('ZREM', p..'tag:'..tag, host) end)
   call('HDEL', p..'hosts', host)
   call('SREM', p..'on:'..e, host)
 end

@@ -9,5 +9,6 @@ end
 call('ZREM', p..'lease', e)
 call('ZREM', p..'orphans', e)
 call('HDEL', p..'at', e)
+call('HDEL', p..'p:'..e, 'at')
 call('ZADD', p..'gone', clock(), e)
 return 1
