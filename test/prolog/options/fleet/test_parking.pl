@@ -222,6 +222,20 @@ robot_returns(Redis, Robot) :-
     assertion(length(Results, 20)),
     wait_until(test_parking:nothing_is_left(Redis), 10).
 
+%   This process has met that of Robot, and has noticed that it is gone.
+
+meets(Robot) :-
+    visitor(Robot, 600, A),
+    wait_until(agent_property(A, host(Robot)), 20),
+    agent_send(A, last),
+    agent_result(A, _, 20).
+
+misses(Robot) :-
+    atomic_list_concat([_,Endpoint], @, Robot),
+    catch(typhon_wire:endpoint_call(Endpoint, hosting, hosts, _, 1),
+          error(_, _), true),
+    typhon_wire:endpoint_gone(Endpoint).
+
 %   restart_outside(+Peer): its host is in no fleet.
 
 restart_outside(Peer) :-
@@ -579,7 +593,9 @@ test(home_knows_where_an_agent_is_parked,
     with_robot([fsync(always)], [], Redis, Robot,
                ( member_spec(Redis, base, [lease(1),fsync(always)], [], Spec),
                  with_more_peers([Spec],
-                     ( peer_kill(robot),
+                     ( meets(Robot),
+                       peer_kill(robot),
+                       wait_until(test_parking:misses(Robot), 30),
                        peer_host(base, Base),
                        create([ (main :- move(Base), move(Robot, [wait(600)]),
                                          here(Here), receive(_-M),
