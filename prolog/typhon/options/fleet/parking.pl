@@ -10,8 +10,7 @@
 :- use_module('../../kernel/agent', [agent_home/2, agent_home_endpoint/2]).
 :- use_module('../../kernel/base/durable',
               [ after_unit/1, durable/5, durable_assertz/1, durable_drop/3,
-                durable_on/0, durable_restores/0, sync_changes/0,
-                unit_of_work/1 ]).
+                durable_on/0, durable_restores/0, sync_changes/0 ]).
 :- use_module('../../kernel/base/monotonic', [deadline/2, monotonic_time/1]).
 :- use_module('../../kernel/base/reports', [report/4]).
 :- use_module('../../kernel/base/text', [term_text/2, text_term/2]).
