@@ -51,7 +51,7 @@ command(picture, 'LOG SVG', 2,
         'draw a log: hosts, time, agents and messages').
 command(page, '[LOG]', 0-1,
         'show the network of a running host in a browser, or replay a log').
-command(fleet, 'hosts | where AGENT | drain HOST | here HOST | alive HOST', 1-3,
+command(fleet, 'hosts | where AGENT | park ... | drain HOST | here HOST', 1-3,
         'hosts, agents, and what is parked in a fleet').
 command(journal, 'DIR', 1,
         'show the journal of a stopped process or network').
@@ -88,6 +88,9 @@ footer(fleet, Line) :-
     member(What-Help,
            [ hosts-'hosts of the fleet, and since when they are up or away',
              'where AGENT'-'the host on which the agent is',
+             'park list'-'agents that wait for hosts that are away',
+             'park drop AGENT'-'it goes on where it was',
+             'park send AGENT'-'send it to its host now',
              'drain HOST'-'its agents go elsewhere, and it leaves; prints \c
                            those that stay',
              'here HOST'-'exit status 0: others find the host in its fleet',

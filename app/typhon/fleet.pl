@@ -4,12 +4,13 @@
 :- use_module(library(lists), [member/2, subset/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../../prolog/typhon',
-              [ agent_where/2, fleet_join/2, fleet_leave/1, remote/2 ]).
+              [ agent_where/2, fleet_join/2, fleet_leave/1, fleet_parked/2,
+                remote/2 ]).
 :- use_module('../../prolog/typhon/kernel/base/text', [format_shown/2]).
 :- use_module('../../prolog/typhon/kernel/host',
               [address_parts/3, process_ask/6]).
 :- use_module('../../prolog/typhon/options/fleet',
-              [fleet_overview/3]).
+              [fleet_overview/3, fleet_park_drop/2, fleet_park_send/2]).
 :- use_module('../../prolog/typhon/tools/tables', [print_table/3]).
 :- use_module(engine_options, [engine_options/3]).
 :- use_module(serving, [and_then/2]).
@@ -39,6 +40,19 @@ fleet(hosts, [], Options) =>
 fleet(where, [Agent], Options) =>
     in_fleet(Options, _, agent_where(Agent, Host)),
     format_shown('~w~n', [Host]).
+fleet(park, [list], Options) =>
+    in_fleet(Options, Fleet, fleet_parked(Fleet, Parked)),
+    findall([Agent, Host, From, To],
+            ( member(parked(Agent, Host, Since, Until), Parked),
+              time_text(Since, From),
+              time_text(Until, To) ),
+            Rows),
+    print_table([agent-left, host-left, since-left, until-left], Rows,
+                'parked agent').
+fleet(park, [drop, Agent], Options) =>
+    in_fleet(Options, Fleet, fleet_park_drop(Fleet, Agent)).
+fleet(park, [send, Agent], Options) =>
+    in_fleet(Options, Fleet, fleet_park_send(Fleet, Agent)).
 fleet(drain, [Host], Options) =>
     findall(Option, drain_option(Options, Option), DrainOptions),
     address_parts(Host, Name, _),
@@ -55,7 +69,7 @@ fleet(alive, [Host], Options) =>
           error(timeout_error(_, _), _),
           fail).
 fleet(What, Arguments, _) =>
-    Whats = [hosts, where, drain, here, alive],
+    Whats = [hosts, where, park, drain, here, alive],
     (   member(What, Whats)
     ->  throw(error(typhon_usage(arguments(fleet, [What|Arguments])), _))
     ;   throw(error(typhon_usage(unknown_command(What, Whats)), _))

@@ -130,6 +130,40 @@ left(Address) :-
     typhon([fleet, here, Address], exit(1), "", Err),
     once(sub_string(Err, _, _, _, "was drained")).
 
+parked(Redis) :-
+    with_host(Redis, alpha, [], A, _,
+        with_host(Redis, beta, [], B, Pid,
+            ( process_kill(Pid, kill),
+              wait_until(test_app_fleet:state(Redis, beta, away), 30),
+              parks(A, B, Id),
+              asks(Redis, [park, list], List),
+              wait_until(test_app_fleet:is_listed(List, Id), 30),
+              asks(Redis, [hosts, '--away'], Away),
+              lines(Away, [_,Gone]),
+              has([Gone], 'beta@* away *-*:*  0 * 1'),
+              asks(Redis, [park, send, Id], Send),
+              refused(Send, "cannot be reached"),
+              asks(Redis, [park, drop, Id], Drop),
+              lines(Drop, []),
+              lines([join, Id, '--timeout', 30], ["done"]),
+              lines(List, ["No parked agents"]),
+              refused(Drop, "parked") ))).
+
+parks(A, B, Id) :-
+    with_tmp_dir(Dir,
+        ( directory_file_path(Dir, 'goes.pl', File),
+          format(string(Text),
+                 ":- agent(goes, []).~nmain :- catch(move('~w', [wait(600)]), \c
+                      error(host_unreachable(_), _), true).~n", [B]),
+          write_file(File, Text),
+          lines([create, File, '--host', A], [Line]) )),
+    atom_string(Id, Line).
+
+is_listed(List, Id) :-
+    lines(List, [_,Line]),
+    atom_concat(Id, ' *@* *-*:* *-*:*', Pattern),
+    wildcard_match(Pattern, Line).
+
 %   Readiness needs the engine; liveness does not.
 
 engine_is_gone(Redis) :-
@@ -158,6 +192,8 @@ test(hosts_are_listed_by_state_and_tag) :-
     with_redis(Redis, listed_and_filtered(Redis)).
 test(drained_host_is_not_here_and_lists_what_stays) :-
     with_redis(Redis, drained(Redis)).
+test(agents_that_wait_are_listed_and_go_on) :-
+    with_redis(Redis, parked(Redis)).
 test(liveness_does_not_need_the_engine) :-
     with_redis(Redis, engine_is_gone(Redis)).
 test(stopped_process_is_not_alive) :-
@@ -181,7 +217,7 @@ test(host_without_a_fleet_is_not_here) :-
                  refused([fleet, here, Address], "fleet") )).
 test(help_names_what_there_is) :-
     lines([fleet, '--help'], Lines),
-    forall(member(What, [hosts, where, drain, here, alive]),
+    forall(member(What, [hosts, where, 'park list', drain, here, alive]),
            ( atomic_list_concat(['    ', What, '*'], Pattern),
              has(Lines, Pattern) )).
 
