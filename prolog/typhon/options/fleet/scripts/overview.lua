@@ -14,7 +14,9 @@ for _, h in ipairs(hosts) do
                                  call('ZSCORE', p..'lease', e))
     local row = {h, load, up and 'up' or 'away', since or '',
                  call('XLEN', p..'park:'..e)}
-    each_tag(h, function (tag) if tag ~= '' then row[#row+1] = tag end end)
+    each_tag(call('HGET', p..'hosts', h), function (tag)
+      if tag ~= '' then row[#row+1] = tag end
+    end)
     out[#out+1] = row
   end
 end
