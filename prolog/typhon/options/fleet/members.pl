@@ -81,7 +81,7 @@ join_fleet(Fleet, Options) :-
     ;   existence_error(option, redis)
     ),
     on_demand_load(fleet, joined),
-    with_mutex(typhon_members, join(Fleet, Options)),
+    in_own_thread(with_mutex(typhon_members, join(Fleet, Options))),
     forall(( host(Host, _, _), host_option(Host, fleet(Fleet)) ),
            fleet_beat(Fleet)).
 

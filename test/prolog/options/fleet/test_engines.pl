@@ -401,6 +401,16 @@ was_cut(Proxy) :-
 
 :- begin_tests(engine_cuts).
 
+%   SWI-Prolog 9.0.4 would wait for ever there.
+
+test(fleet_is_joined_in_a_setup_while_a_signal_is_pending,
+     throws(error(resource_error(fleet(lab)), _))) :-
+    thread_self(Me),
+    no_leaks(setup_call_cleanup(( thread_signal(Me, true),
+                                  fleet_join(lab, [redis(localhost:1)]) ),
+                                true,
+                                true)).
+
 test(member_without_the_engine_is_away_and_hops_go_on, Outcome == done) :-
     with_cut(Proxy,
              ( proxy_hold(Proxy, up),
