@@ -49,9 +49,10 @@ file_changes(File, Changes) :-
 %
 %   Rules is rules(End, Bodies): End is where the declaration of the module
 %   ends; of each rule there is body(Predicate, Kind, Start, End), Kind being
-%   `rule` or `dcg`. Fails if File is no module.
+%   `rule` or `dcg`. Fails if File is no module of Prolog.
 
 file_rules(File, rules(End, Bodies)) :-
+    file_name_extension(_, pl, File),
     file_clauses(File, [module(End)|Clauses]),
     findall(body(Predicate, Kind, Start, Stop),
             ( member(clause(Term, Positions, _), Clauses),
