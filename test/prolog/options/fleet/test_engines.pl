@@ -12,6 +12,7 @@
 :- use_module('../../../lib/texts', [file_lines/2]).
 :- use_module('../../../lib/vanishing_relay').
 :- use_module('../../../../app/typhon/engine_options', [engine_options/3]).
+:- use_module(library(apply), [foldl/4]).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex), [directory_file_path/3, directory_member/3]).
 :- use_module(library(lists), [append/3, member/2, memberchk/2]).
@@ -42,12 +43,16 @@ hosts(Options, Names) :-
             Names0),
     sort(Names0, Names).
 
-tour(Outcome) :-
-    peer_host(beta, Beta),
+%   tour(+Peers, -Outcome): of an agent that moves to them and back.
+
+tour(Peers, Outcome) :-
+    findall(move(Host), ( member(Peer, Peers), peer_host(Peer, Host) ), Moves),
     address(alpha, Alpha),
-    create([(main :- move(Beta), move(Alpha), move(Beta))], Agent,
-           [host(alpha)]),
+    foldl(then, Moves, true, There),
+    create([(main :- There, move(Alpha))], Agent, [host(alpha)]),
     joined(Agent, Outcome).
+
+then(Goal, Goals, (Goals,Goal)).
 
 %   tls(+Dir, -Port, -Options): Redis with the keys of Dir, as arguments.
 
@@ -85,7 +90,7 @@ test(members_with_certificates_meet, Names == [alpha,beta]) :-
                                            host([ fleet(lab),
                                                   journal(redis('lab/b')) ]) ]],
                                    ( hosts([state(up)], Names),
-                                     tour(done) ))) )).
+                                     tour([beta], done) ))) )).
 
 test(certificate_of_another_authority_is_refused,
      throws(error(resource_error(fleet(lab)), _))) :-
@@ -375,7 +380,8 @@ test(master_without_a_replica_takes_no_changes, Heard == later) :-
 
 :- end_tests(engine_failover).
 
-%   with_cut(-Proxy, :Goal): peer beta reaches the engine through Proxy.
+%   with_cut(-Proxy, :Goal): peer beta reaches the engine through Proxy; gamma is
+%   not in the fleet.
 
 :- meta_predicate with_cut(-, 0).
 
@@ -392,7 +398,8 @@ behind(Proxy, Goal) :-
     atomic_list_concat([Host,Port0], :, Address0),
     atom_number(Port0, Port),
     with_peers([beta-[ setup(fleet_join(lab, [lease(2), redis(Host:Port)])),
-                       host([fleet(lab)]) ]],
+                       host([fleet(lab)]) ],
+                gamma],
                ( up([alpha,beta]), once(Goal) )).
 
 was_cut(Proxy) :-
@@ -416,7 +423,7 @@ test(member_without_the_engine_is_away_and_hops_go_on, Outcome == done) :-
              ( proxy_hold(Proxy, up),
                proxy_hold(Proxy, down),
                wait_until(test_engines:hosts([state(away)], [beta]), 30),
-               tour(Outcome),
+               tour([beta,gamma,beta], Outcome),
                hosts([state(up)], [alpha]),
                proxy_release(Proxy, up),
                proxy_release(Proxy, down),
