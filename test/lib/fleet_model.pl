@@ -125,7 +125,8 @@ parked(E, State, N) :-
 
 state(E, Now, State, Up) :-
     (   is(lease(E), Lapses, State),
-        Lapses > Now
+        is(process(E), p(_, _, Ttl, _, _), State),
+        Now < Lapses+Ttl
     ->  Up = up
     ;   Up = away
     ).
