@@ -1,9 +1,11 @@
 :- module(typhon_registry, []).
 :- use_module(library(lists), [append/2, append/3, member/2]).
+:- use_module(library(option), [option/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/agent',
               [agent_here/5, agent_home_endpoint/2, life_hops/2]).
 :- use_module('../../kernel/base/bounds', [bounded/3]).
+:- use_module('../../kernel/base/monotonic', [deadline/2, monotonic_time/1]).
 :- use_module('../../kernel/host', [host/3]).
 :- use_module(engine, [engine/3, engine_key/3, engine_script/4]).
 :- use_module(members, [fleet_host/3, fleet_joined/2]).
@@ -53,11 +55,22 @@ typhon_members:is_new(Fleet) :-
              note_end(Fleet, Id, Text) )).
 
 typhon_members:work(Fleet) :-
+    report_until(Fleet, Until),
     findall(Id-Hops-Host, moved(Fleet, Id, Hops, Host), Moved),
-    in_parts(500, Moved, report_moves(Fleet)),
+    in_parts(500, Until, Moved, report_moves(Fleet)),
     forget_others(Fleet),
     findall(Id-Text, ended(Fleet, Id, Text), Ended),
-    in_parts(500, Ended, report_ends(Fleet)).
+    in_parts(500, Until, Ended, report_ends(Fleet)).
+
+%   The thread renews a lease, too: of a slow engine each report asks little, and
+%   the next one goes on.  The last one, of a fleet that is left, is whole.
+
+report_until(Fleet, Until) :-
+    (   fleet_joined(Fleet, Options)
+    ->  option(lease(Lease), Options, 3),
+        deadline(Lease/6, Until)
+    ;   Until = inf
+    ).
 
 moved(Fleet, Id, Hops, Host) :-
     fleet_host(Host, Fleet, _),
@@ -65,15 +78,16 @@ moved(Fleet, Id, Hops, Host) :-
     life_hops(Life, Hops),
     \+ reported(Fleet, Id, Hops, Host).
 
-:- meta_predicate in_parts(+, +, 1).
+:- meta_predicate in_parts(+, +, +, 1).
 
-in_parts(N, List, Report) :-
-    (   List == []
+in_parts(N, Until, List, Report) :-
+    monotonic_time(Now),
+    (   ( List == [] ; Now > Until )
     ->  true
     ;   length(Part, N),
         append(Part, Rest, List)
     ->  call(Report, Part),
-        in_parts(N, Rest, Report)
+        in_parts(N, Until, Rest, Report)
     ;   call(Report, List)
     ).
 

@@ -6,6 +6,7 @@
 :- use_module('../../../lib/fixtures').
 :- use_module('../../../lib/peers').
 :- use_module('../../../lib/redis').
+:- use_module('../../../lib/relay', [relay_start/4, relay_stop/1]).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(lists), [append/3, member/2, memberchk/2]).
 :- use_module(library(plunit)).
@@ -205,6 +206,46 @@ test(hops_go_on_without_the_engine, Outcome == done) :-
                  create([(main :- move(beta), move(alpha))], Agent,
                         [host(alpha)]),
                  joined(Agent, Outcome) )).
+
+%   Each answer takes a fifth of a second, and a report 500 agents.
+
+test(slow_engine_lapses_no_member_with_many_agents, Changes == []) :-
+    no_leaks(with_redis(Redis, slow(Redis, Changes))).
+
+slow(Redis, Changes) :-
+    redis_address(Redis, Interface:Port),
+    atomic_list_concat([Interface,Port], :, Target),
+    member_spec(Redis, beta, [lease(1)], [], Beta),
+    setup_call_cleanup(
+        relay_start(Target, late, Relay, Address),
+        ( atomic_list_concat([_,Relayed], :, Address),
+          atom_number(Relayed, Number),
+          fleet_join(lab, [redis(Interface:Number), lease(1)]),
+          call_cleanup(with_peers([Beta], many_agents(Redis, Changes)),
+                       ( host_stop(alpha), fleet_leave(lab) )) ),
+        relay_stop(Relay)).
+
+many_agents(Redis, Changes) :-
+    host_start(alpha, [fleet(lab)]),
+    forall(between(1, 4000, _), create([(main :- receive(_))], _, [host(alpha)])),
+    host_property(alpha, address(Address)),
+    atomic_list_concat([_,Endpoint], @, Address),
+    atom_concat('f:{lab}:agents:', Endpoint, Key),
+    wait_until(test_members:redis_line(Redis, [hlen, Key], ["4000"]), 60),
+    redis_line(Redis, [xrange, 'f:{lab}:events', -, +], Lines),
+    findall(Host, ( append(_, ["away",Host|_], Lines) ), Changes).
+
+late(_, _, Direction, In, Out) :-
+    repeat,
+    fill_buffer(In),
+    read_pending_codes(In, Codes, []),
+    (   Codes == []
+    ->  !
+    ;   ( Direction == down -> sleep(0.2) ; true ),
+        format(Out, '~s', [Codes]),
+        flush_output(Out),
+        fail
+    ).
 
 :- end_tests(engines).
 
