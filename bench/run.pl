@@ -12,7 +12,7 @@ all figures in OUT/bench.csv.
     swipl bench/run.pl -- [--out DIR] [NAME ...]
 
 Names are those of the files here; without any, all but
-`peers`, `keys` and `journal` are run.
+`peers`, `keys`, `journal` and `fleet` are run.
 Machines are noisy: compare figures of one run, placement by placement. */
 
 :- initialization(main, main).
@@ -48,7 +48,7 @@ must_be_known(Name) :-
     ).
 
 wanted([], Script) :-
-    \+ memberchk(Script, [peers, keys, journal]).        % they take minutes
+    \+ memberchk(Script, [peers, keys, journal, fleet]).        % they take minutes
 wanted([Name|Names], Script) :-
     memberchk(Script, [Name|Names]).
 
@@ -79,6 +79,7 @@ job(learning, [env], 1).
 job(learning, [env], 2).
 job(peers, [env], 3).
 job(journal, [env], unpinned).
+job(fleet, [env], all).
 
 figure_of(Script, Prefix, Argument, row(Name, Value, Unit, Note)) :-
     bench_directory(Dir),
