@@ -62,7 +62,9 @@ hop :-
 compare_hops(Members, Others) :-
     rounds(4, Members, _, _),           % warm up
     rounds(4, Others, _, _),
-    findall(Pair, ( between(1, 20, _), hop_pair(Members, Others, Pair) ), Pairs),
+    findall(Pair,
+            ( between(1, 20, _), hop_pair(Members, Others, Pair) ),
+            Pairs),
     medians('a hop in a fleet, inferences', Pairs, pair(A, B, _, _), A, B,
             inferences),
     medians('a hop in a fleet, processor time', Pairs, pair(_, _, A1, B1),
@@ -88,7 +90,8 @@ back_and_forth(Count, [Here,There]) :-
                         other(There) ]),
     findall(Agent,
             ( between(1, 10, _),
-              agent_create(Program, Agent, [host(Here), facts([left(Count)])]) ),
+              agent_create(Program, Agent,
+                           [host(Here), facts([left(Count)])]) ),
             Agents),
     forall(member(Agent, Agents), agent_join(Agent, done, 300)).
 
@@ -96,12 +99,12 @@ inferences(Hosts, Sum) :-
     aggregate_all(sum(N),
                   ( member(Host, Hosts),
                     remote(Host,
-                           aggregate_all(sum(I),
-                                         ( thread_property(T, status(running)),
-                                           catch(thread_statistics(T, inferences,
-                                                                   I),
-                                                 error(_, _), fail) ),
-                                         N)) ),
+                           aggregate_all(
+                               sum(I),
+                               ( thread_property(T, status(running)),
+                                 catch(thread_statistics(T, inferences, I),
+                                       error(_, _), fail) ),
+                               N)) ),
                   Sum).
 
 %   medians(+Name, +Pairs, +Pair, A, B, +Unit): the median of A/B.
@@ -167,7 +170,8 @@ idle(Agents, Host) :-
     thread_seconds(Host, Before),
     remote(Host, sleep(10)),
     thread_seconds(Host, After),
-    format(atom(Name), 'thread of a fleet, idle process of ~D agents', [Agents]),
+    format(atom(Name), 'thread of a fleet, idle process of ~D agents',
+           [Agents]),
     figure(Name, 1000*(After-Before)/10, 'ms of processor per second').
 
 thread_seconds(Host, Seconds) :-
@@ -199,10 +203,12 @@ engine(Processes, Agents, Moves, Seconds, Threads) :-
     get_time(Start),
     forall(between(1, Seconds, Second),
            ( Load is Each + Second mod 2,
-             of_all(Threads, All, ( beats(0, I, Load), reports(I, Moved, Second) ), I) )),
+             of_all(Threads, All,
+                    ( beats(0, I, Load), reports(I, Moved, Second) ), I) )),
     get_time(End),
     engine_spent(Cpu1, Bytes),
-    format(atom(Name), 'engine: ~D processes, ~D agents, ~D moves/s, ~w at once',
+    format(atom(Name),
+           'engine: ~D processes, ~D agents, ~D moves/s, ~w at once',
            [Processes, Agents, Moves, Threads]),
     Real is End-Start,
     format(atom(Note), 'of a processor; took ~1f s for ~w', [Real, Seconds]),
