@@ -260,11 +260,7 @@ handled(beat, Fleet, Options, due(_, Report), due(Beat, Report)) :-
     beat(Fleet, Options, Beat).
 handled(call(registered, Caller), Fleet, Options, due(_, Report),
         due(Beat, Report)) :-
-    beat(Fleet, Options, Beat),
-    (   member(Fleet, _, _, _)
-    ->  Known = true
-    ;   Known = false
-    ),
+    beat(Fleet, Options, Beat, Known),
     server_answer(Caller, Known).
 handled(stop, Fleet, _, State, State) :-
     quietly(reports(Fleet)),
@@ -292,10 +288,16 @@ reports(Fleet) :-
     forall(work(Fleet), true).
 
 beat(Fleet, Options, Next) :-
+    beat(Fleet, Options, Next, _).
+
+%   Known is `true` if the engine has answered.
+
+beat(Fleet, Options, Next, Known) :-
     lease(Options, Lease),
     Third is Lease/3,
     deadline(Third, Next),
-    quietly(beat(Fleet, Options)).
+    quietly(( beat(Fleet, Options), Known = true )),
+    ignore(Known = false).
 
 beat(Fleet, Options) :-
     findall(Host, known_host(Fleet, Host), Hosts),
@@ -308,7 +310,7 @@ beat(Fleet, Options) :-
     ;   true
     ),
     lease(Options, Lease),
-    beat(Fleet, Lease, Endpoint, Hosts).
+    renewed(Fleet, Lease, Endpoint, Hosts).
 beat(Fleet, _) :-
     gives_back(Fleet).
 
@@ -318,7 +320,7 @@ known_host(Fleet, [Address,Load,Count|Tags]) :-
     host_load(Host, Load),
     length(Tags, Count).
 
-beat(Fleet, Lease, Endpoint, Hosts) :-
+renewed(Fleet, Lease, Endpoint, Hosts) :-
     (   member(Fleet, Endpoint, Token, _)
     ->  First = 0
     ;   Token is random(1<<60),

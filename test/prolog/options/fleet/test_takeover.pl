@@ -42,6 +42,13 @@ found(Id, Host) :-
     catch(agent_where(Id, Host0), error(_, _), fail),
     Host0 = Host.
 
+%   The engine knows where Id is.
+
+stored(Redis, Id) :-
+    atomic_list_concat([_,_,Home], @, Id),
+    atom_concat('f:{lab}:agents:', Home, Key),
+    redis_line(Redis, [hexists, Key, Id], ["1"]).
+
 %   counting(+Redis, +Joins, :Goal): Goal in a member without a journal; peer
 %   `beta` has its journal in the engine, and an agent that counts messages.
 
@@ -179,8 +186,10 @@ test(engine_that_lost_all_knows_agents_and_ends_again, Host-Outcome == Alpha-don
                               peer_kill(beta),
                               agent_send(Other, go),
                               agent_join(Other, done, 30),
+                              wait_until(test_takeover:stored(Redis, Agent), 30),
                               redis_empty(Redis),
-                              wait_until(test_takeover:found(Agent, Host), 30),
+                              wait_until(test_takeover:stored(Redis, Agent), 30),
+                              agent_where(Agent, Host),
                               wait_until(test_takeover:ended(Other, Outcome),
                                          30) )) )).
 
