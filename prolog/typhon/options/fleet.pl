@@ -246,7 +246,7 @@ work_keep(Fleet, Queue, Worker, Work) :-
 
 %!  work_done(+Fleet, +Queue:atom, +Work, +Result) is det.
 %
-%   Work is done.  Of several results the first counts.
+%   Work is done; Result is ground.  Of several results the first counts.
 
 work_done(Fleet, Queue, Work, Result) :-
     done_work(Fleet, Queue, Work, Result).

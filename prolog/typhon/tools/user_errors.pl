@@ -241,6 +241,9 @@ query_bindings(Frame, Depth, Bindings) :-
 named(-(_), instantiation_error, _) :-
     !,
     fail.
+named(Mode:_, Formal, Name) :-
+    !,
+    named(Mode, Formal, Name).
 named('$VAR'(Name), _, Name) :-
     !.
 named(Mode, _, Name) :-

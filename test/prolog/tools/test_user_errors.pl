@@ -44,8 +44,16 @@ valid(agent_send(bob, x), ['Agent']).
 valid(agent_step(bob), ['Agent']).
 valid(agent_trace(bob, [hops]), ['Agent', 'What']).
 valid(agent_trail(bob, _), ['Agent']).
+valid(agent_where(bob, _), ['Agent']).
 valid(fipa_start(alpha, 'http://localhost:0', []), ['Host', 'URL', 'Options']).
 valid(fipa_stop(nowhere), ['Host']).
+valid(fleet_drain(alpha, []), ['Host', 'Options']).
+valid(fleet_hosts(lab, _, []), ['Fleet', 'Options']).
+valid(fleet_join(lab, [redis('127.0.0.1':1)]), ['Fleet', 'Options']).
+valid(fleet_leave(lab), ['Fleet']).
+valid(fleet_parked(lab, _), ['Fleet']).
+valid(fleet_unwatch(none), ['Watch']).
+valid(fleet_watch(lab, [_]>>true, _), ['Fleet', 'OnChange']).
 valid(host_change(alpha, capacity(3)), ['Host', 'Option']).
 valid(host_property(alpha, state(_)), []).
 valid(host_start(alpha), ['Name']).
@@ -79,6 +87,14 @@ valid(ros_stop(nowhere), ['Host']).
 valid(unlink(alpha, nowhere), ['A', 'B']).
 valid(unwatch(none), ['Watch']).
 valid(watch(alpha, [_]>>true, _), ['Hosts', 'OnEvent']).
+valid(work_done(lab, tasks, work('0-1', 1, t), r),
+      ['Fleet', 'Queue', 'Work', 'Result']).
+valid(work_keep(lab, tasks, me, work('0-1', 1, t)),
+      ['Fleet', 'Queue', 'Worker', 'Work']).
+valid(work_left(lab, tasks, _), ['Fleet', 'Queue']).
+valid(work_put(lab, tasks, [t]), ['Fleet', 'Queue', 'Tasks']).
+valid(work_results(lab, tasks, _), ['Fleet', 'Queue']).
+valid(work_take(lab, tasks, me, _), ['Fleet', 'Queue', 'Worker']).
 
 %   Any term is a message, and a goal that fails is one that is called.
 
@@ -89,6 +105,8 @@ accepts(network_at/3, 2, T) :- number(T).
 accepts(agent_join/3, 3, T) :- number(T).
 accepts(agent_result/3, 3, T) :- number(T).
 accepts(agent_trail/2, 2, _).           % an answer
+accepts(agent_where/2, 2, _).
+accepts(work_done/4, 4, _).             % any result
 accepts(watch/3, 2, Goal) :- callable(Goal).
 accepts(remote/2, 2, f(_)).
 

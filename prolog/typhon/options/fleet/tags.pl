@@ -39,10 +39,10 @@ typhon_names:known(tag, Tag) :-
 %   See fleet_hosts/3.
 
 hosts_of_fleet(Fleet, Hosts, Options) :-
-    must_be_fleet(Fleet),
     check_options(fleet_hosts_option, Options),
     option(tag(Tag), Options, []),
     tags(Tag, Tags),
+    must_be_fleet(Fleet),
     known(Fleet, Tags, Known),
     findall(Rank-Host,
             ( member(host(Host, Load, State), Known),

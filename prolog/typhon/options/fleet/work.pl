@@ -6,7 +6,7 @@
             left_work/3,                % +Fleet, +Queue, -Left
             results_of_work/3           % +Fleet, +Queue, -Results
           ]).
-:- use_module(library(error), [must_be/2]).
+:- use_module(library(error), [must_be/2, type_error/2]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(engine, [engine/3, engine_key/3, engine_script/4]).
@@ -34,8 +34,8 @@ but too slow works in vain, and changes nothing.
 %   work_results/3.
 
 put_work(Fleet, Queue, Tasks) :-
-    must_be_queue(Fleet, Queue),
     must_be(list, Tasks),
+    must_be_queue(Fleet, Queue),
     put_from(Tasks, 1, Fleet, Queue).
 
 %   The engine serves others between two thousands.
@@ -62,8 +62,8 @@ numbered([Task|Tasks], N, [N,Text|Args]) :-
     numbered(Tasks, N1, Args).
 
 take_work(Fleet, Queue, Worker, Work) :-
-    must_be_queue(Fleet, Queue),
     must_be(atomic, Worker),
+    must_be_queue(Fleet, Queue),
     setting(typhon_fleet:work_seconds, Seconds),
     Patience is integer(1000*Seconds),
     engine_script(Fleet, work_take, [Queue,Worker,Patience], Reply),
@@ -75,11 +75,15 @@ taken([Entry,N0,Text], work(Entry, N, Task)) :-
 taken([Left], none) :-
     Left > 0.
 
-keep_work(Fleet, Queue, Worker, work(Entry, _, _)) :-
+keep_work(Fleet, Queue, Worker, Work) :-
+    must_be(atomic, Worker),
+    must_be_work(Work, Entry, _),
     must_be_queue(Fleet, Queue),
     engine_script(Fleet, work_keep, [Queue,Worker,Entry], 1).
 
-done_work(Fleet, Queue, work(Entry, N, _), Result) :-
+done_work(Fleet, Queue, Work, Result) :-
+    must_be_work(Work, Entry, N),
+    must_be(ground, Result),
     must_be_queue(Fleet, Queue),
     format(string(Text), '~k', [Result]),
     engine_script(Fleet, work_done, [Queue,Entry,N,Text], _).
@@ -102,5 +106,14 @@ results_of_work(Fleet, Queue, Results) :-
     keysort(Unsorted, Results).
 
 must_be_queue(Fleet, Queue) :-
-    must_be_fleet(Fleet),
-    must_be(atom, Queue).
+    must_be(atom, Queue),
+    must_be_fleet(Fleet).
+
+must_be_work(Work, Entry, N) :-
+    must_be(nonvar, Work),
+    (   Work = work(Entry, N, _),
+        atomic(Entry),
+        integer(N)
+    ->  true
+    ;   type_error(work, Work)
+    ).

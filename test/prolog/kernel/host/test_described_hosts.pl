@@ -115,15 +115,12 @@ test(error_of_the_choice_is_raised_at_the_move,
 test(error_of_the_choice_is_raised_at_the_creation,
      error(existence_error(tag, none))) :-
     with_tags([alpha], [], create([main], _, [host(any(none))])).
-test(host_that_cannot_be_chosen_is_unknown_to_an_agent,
-     Formal == move_refused(any(lamp), unknown_host)) :-
+test(nothing_is_chosen_without_a_fleet,
+     Formal == existence_error(fleet, any(lamp))) :-
     with_tags([alpha], [], said(move(any(lamp)), Formal-_)).
-test(host_that_cannot_be_chosen_does_not_exist,
-     Formal == existence_error(host, any(lamp))) :-
-    with_tags([alpha], [],
-              catch(create([main], _, [host(any(lamp))]),
-                    error(Formal, context(_, Text)), true)),
-    assertion(atom(Text)).
+test(nothing_is_chosen_without_a_fleet_at_a_creation,
+     error(existence_error(fleet, any(lamp)))) :-
+    with_tags([alpha], [], create([main], _, [host(any(lamp))])).
 test(other_terms_are_no_hosts,
      [ forall(member(Host, [any([]), any(_), any([a|_]), any("a"), one(a)])),
        error(_) ]) :-

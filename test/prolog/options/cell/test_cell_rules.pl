@@ -111,7 +111,7 @@ no_outcome(Term) :-
            [ held, over(x), raised(_), raised('$aborted'), raised(unwind(x)),
              effect(move(x), h, []), effect(_, _, []), effect(halt, _, []),
              effect('$fault'(x), _, []), effect(user:move(x), _, []),
-             effect(move(x, y), _, []), effect(sleep_until(x), _, []),
+             effect(move(x, y, z), _, []), effect(sleep_until(x), _, []),
              effect(sleep_until(_), _, []),
              effect(receive_until(_, x, _), _, []),
              effect(receive_until(_, 1), _, []), effect(move(x), _, x),

@@ -235,8 +235,9 @@ test(supervisor_restarts_its_children, [Outcome,Last] == [done,disposed]) :-
                        agent_join(S, Outcome, 30),
                        agent_join(B, Last, 30) ), _) )).
 test(gatekeeper_checks_each_predicate, Own == [clone/1,clone/2,deliver/1,
-                                               dispose/0,move/1,receive/1,
-                                               receive/2,undeliver/1]) :-
+                                               dispose/0,move/1,move/2,
+                                               receive/1,receive/2,
+                                               undeliver/1]) :-
     findall(PI, ( vocabulary_word(_, PI), \+ cell_word(_, PI) ), PIs),
     sort(PIs, Own).
 
