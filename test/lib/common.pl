@@ -425,9 +425,10 @@ python(path(python3)).
 %   knows only the timeouts 0 and infinite, hence the polling.
 
 wait_for_end(Pid, Seconds, Status) :-
-    catch(wait_until(ended(Pid, Status), Seconds),
+    catch(wait_until(ended(Pid, Status0), Seconds), % a status is had only once
           error(timeout_error(wait_until, _), _),
-          Status = timeout).
+          Status0 = timeout),
+    Status = Status0.
 
 ended(Pid, Status) :-
     process_wait(Pid, Status, [timeout(0)]),
