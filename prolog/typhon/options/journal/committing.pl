@@ -210,13 +210,17 @@ commit_or_leave :-
     commit_locked.
 commit_or_leave.
 
-%   If the commit fails the committer tries again, and reports the error.
+%   If the commit fails the committer, which may be this thread, is told to try
+%   again, and reports the error.
 
 commit_locked :-
     set_flag(typhon_journal_wanted, 0),
-    call_cleanup(catch(commit_open, error(_, _), true),
+    call_cleanup(catch(commit_open, error(_, _), Failed = true),
                  mutex_unlock(typhon_commit)),
-    commit_if_wanted.
+    (   Failed == true
+    ->  wake(now)
+    ;   commit_if_wanted
+    ).
 
 commit_if_wanted :-
     (   get_flag(typhon_journal_wanted, 1)
