@@ -175,7 +175,7 @@ keep(Node, Asker) :-
     (   calm
     ->  true
     ;   died(Status, Said),
-        ( power_cut(Journal) -> count(power_cut) ; true ),
+        ( \+ engine(_), power_cut(Journal) -> count(power_cut) ; true ),
         keep(Node, _)
     ).
 
