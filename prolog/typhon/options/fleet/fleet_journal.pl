@@ -8,7 +8,7 @@
 :- use_module('../../kernel/base/server',
               [server_answer/2, server_call/4, server_start/4, server_stop/1]).
 :- use_module(engine, [engine/3, engine_key/3, engine_script/4]).
-:- use_module(members, [fleet_joined/2, fleet_member/4, must_be_fleet/1]).
+:- use_module(members, [fleet_joined/2, fleet_member/3, must_be_fleet/1]).
 
 /** <module> A journal in the engine of a fleet: journal(redis('lab/alpha'))
 
@@ -295,7 +295,7 @@ handle(Journal, Ttl, Message, Next0, until(Next, Next)) :-
 
 renew(Journal, Ttl) :-
     Journal = journal(Fleet, _, _, _),
-    (   fleet_member(Fleet, _, _, _)
+    (   fleet_member(Fleet, _, _)
     ->  true
     ;   catch(script(journal_renew, Journal, [Ttl], _), error(_, _), true)
     ).

@@ -2,7 +2,7 @@
           [ join_fleet/2,               % +Fleet, +Options
             leave_fleet/1,              % +Fleet
             fleet_joined/2,             % ?Fleet, -Options
-            fleet_member/4,             % ?Fleet, -Endpoint, -Token, -Epoch
+            fleet_member/3,             % ?Fleet, -Endpoint, -Token
             fleet_host/3,               % ?Host, ?Fleet, -Tags
             must_be_fleet/1,            % +Fleet
             fleet_beat/1,               % +Fleet
@@ -56,7 +56,7 @@ modules add by the hooks work/1 and beaten/3.
 
 :- dynamic
     fleet/3,                    % Fleet, Server, Options
-    member/4.                   % Fleet, Endpoint, Token, Epoch: its lease
+    member/3.                   % Fleet, Endpoint, Token: of its lease
 
 typhon_options:declared(host_option, fleet(X), atom, X).
 typhon_options:declared(host_option, tags(X), list(atom), X).
@@ -122,7 +122,7 @@ leave_fleet(Fleet) :-
 leave(Fleet) :-
     (   retract(fleet(Fleet, Server, _))
     ->  server_stop(Server),
-        retractall(member(Fleet, _, _, _)),
+        retractall(member(Fleet, _, _)),
         engine_close(Fleet)
     ;   true
     ).
@@ -142,16 +142,16 @@ must_be_fleet(Fleet) :-
     ).
 
 %!  fleet_joined(?Fleet, -Options) is nondet.
-%!  fleet_member(?Fleet, -Endpoint, -Token, -Epoch) is nondet.
+%!  fleet_member(?Fleet, -Endpoint, -Token) is nondet.
 %
-%   This process is a member of Fleet; its endpoint, and the token and number by
-%   which the engine knows it, when it has a lease.
+%   This process is a member of Fleet; its endpoint, and the token by which
+%   the engine knows it, when it has a lease.
 
 fleet_joined(Fleet, Options) :-
     fleet(Fleet, _, Options).
 
-fleet_member(Fleet, Endpoint, Token, Epoch) :-
-    member(Fleet, Endpoint, Token, Epoch).
+fleet_member(Fleet, Endpoint, Token) :-
+    member(Fleet, Endpoint, Token).
 
 %!  fleet_told(+Fleet) is semidet.
 %
@@ -284,7 +284,7 @@ report(Fleet, Options, Next) :-
     Next is max(Now+Each, Now+5*(Now-Start)).
 
 reports(Fleet) :-
-    member(Fleet, _, _, _),
+    member(Fleet, _, _),
     forall(work(Fleet), true).
 
 beat(Fleet, Options, Next) :-
@@ -304,7 +304,7 @@ beat(Fleet, Options) :-
     endpoint_address(Endpoint),
     Hosts \== [],
     !,
-    (   member(Fleet, Other, _, _),
+    (   member(Fleet, Other, _),
         Other \== Endpoint
     ->  gives_back(Fleet)
     ;   true
@@ -321,7 +321,7 @@ known_host(Fleet, [Address,Load,Count|Tags]) :-
     length(Tags, Count).
 
 renewed(Fleet, Lease, Endpoint, Hosts) :-
-    (   member(Fleet, Endpoint, Token, _)
+    (   member(Fleet, Endpoint, Token)
     ->  First = 0
     ;   Token is random(1<<60),
         First = 1
@@ -349,14 +349,14 @@ answered(usurped, _, Fleet, _, _) :-
     forall(fenced(Fleet, journal), true).
 
 has_lease(Fleet, Endpoint, Token) :-
-    (   member(Fleet, Endpoint, Token, _)
+    (   member(Fleet, Endpoint, Token)
     ->  true
-    ;   assertz(member(Fleet, Endpoint, Token, _))
+    ;   assertz(member(Fleet, Endpoint, Token))
     ).
 
 gives_back(Fleet) :-
-    (   member(Fleet, Endpoint, Token, _)
-    ->  retractall(member(Fleet, _, _, _)),
+    (   member(Fleet, Endpoint, Token)
+    ->  retractall(member(Fleet, _, _)),
         engine_script(Fleet, leave, [Endpoint,Token], _)
     ;   true
     ).

@@ -24,7 +24,7 @@
               [endpoint_address/1, endpoint_call/5, mobile_term/1]).
 :- use_module(engine, [engine_run_id/2, engine_script/4]).
 :- use_module(members,
-              [ fleet_host/3, fleet_joined/2, fleet_member/4,
+              [ fleet_host/3, fleet_joined/2, fleet_member/3,
                 must_be_fleet/1 ]).
 
 /** <module> Agents and messages that wait in the engine for a host
@@ -363,7 +363,7 @@ reporting(What, Goal) :-
             fail )).
 
 take(Fleet, After, Done) :-
-    fleet_member(Fleet, Endpoint, Token, _),
+    fleet_member(Fleet, Endpoint, Token),
     findall(Address, host(_, Address, _), Hosts),
     length(Hosts, Count),
     append([[Endpoint,Token,After,Count], Hosts, Done], Args),
