@@ -7,7 +7,7 @@
             commit_queue/0
           ]).
 :- use_module(library(error), [existence_error/2]).
-:- use_module(library(lists), [append/3, reverse/2]).
+:- use_module(library(lists), [append/3, member/2, reverse/2]).
 :- use_module(library(rbtrees), [rb_insert_new/4, rb_new/1]).
 :- use_module('../../kernel/base/monotonic', [deadline/2]).
 :- use_module('../../kernel/base/durable', [crash_point/1, durable_closed/0]).
@@ -210,8 +210,8 @@ commit_or_leave :-
     commit_locked.
 commit_or_leave.
 
-%   If the commit fails the committer, which may be this thread, is told to try
-%   again, and reports the error.
+%   If the commit fails the committer, which may be this thread, commits again at
+%   once, and reports an error.
 
 commit_locked :-
     set_flag(typhon_journal_wanted, 0),
@@ -329,11 +329,19 @@ commit_now(State, Next) :-
           not_committed(error(Formal, Context), State, Next)).
 
 not_committed(Error, State, until(Stamp, State)) :-
-    (   reported(_)
-    ->  true
-    ;   print_message(error, Error),
-        assertz(reported(Error))
-    ),
+    note_error(Error),
     set_flag(typhon_journal_awake, 2),
     again_seconds(Seconds),
     deadline(Seconds, Stamp).
+
+%   An error is printed once, and each other one that the next tries raise.
+
+note_error(error(Formal, _)) :-
+    reported(error(Formal0, _)),
+    Formal0 =@= Formal,
+    !.
+note_error(Error) :-
+    print_message(error, Error),
+    findall(Old, reported(Old), Others),
+    asserta(reported(Error)),
+    forall(member(Old, Others), retract(reported(Old))).
