@@ -7,6 +7,7 @@
 :- use_module('../../kernel/base/error_text', [is_abort/1]).
 :- use_module('../../kernel/base/monotonic', [wait_within/2]).
 :- use_module('../../kernel/base/own_thread', [in_own_thread/1, stop_thread/1]).
+:- use_module('../../kernel/base/reports', [report/4]).
 :- use_module(engine, [engine/3, engine_key/3]).
 :- use_module(members, [must_be_fleet/1]).
 
@@ -74,8 +75,8 @@ watch(Watch, Fleet, Last, OnChange) :-
                    [_-Entries|_])
           -> true
           ;  Entries = [] ),
-          error(_, _),
-          ( pause, Entries = [] )),
+          error(Formal, Context),
+          ( unread(Formal, Context), Entries = [] )),
     forall(( member([_,[What0,Host0]], Entries), watching(Watch, _, _) ),
            tell(OnChange, What0, Host0)),
     (   watching(Watch, _, _)
@@ -87,9 +88,18 @@ watch(Watch, Fleet, Last, OnChange) :-
     ;   true
     ).
 
-pause :-
+%   Outages end, and a fleet that was left may be joined again.
+
+unread(Formal, Context) :-
+    (   is_outage(Formal)
+    ->  true
+    ;   report(error, fleet_watches, watch, error(Formal, Context))
+    ),
     thread_self(Me),
     ignore(wait_within(0.5, thread_get_message(Me, stop))).
+
+is_outage(resource_error(fleet(_))).
+is_outage(existence_error(fleet, _)).
 
 tell(OnChange, What0, Host0) :-
     atom_string(What, What0),
