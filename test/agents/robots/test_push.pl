@@ -9,8 +9,7 @@
 *Threading*: one test at a time.
 */
 
-%   The lines and the brick do what they are told; driven(Metres) are the next
-%   measurements.
+%   The lines and the brick obey orders; driven(Metres) are the next measurements.
 
 stands_for((lane_follow(b, Way) :- log(follow(Way)))).
 stands_for((lane_find(b, Colour, Most) :- log(find(Colour, Most)))).

@@ -26,7 +26,7 @@ restart.  The first process that asks for such journals gets it, and starts a
 stand-in; others connect to that instead.
 
 A process that finds its address or journal with another one sends nothing any
-more: its hosts rest, and it ends with status 75, unless a person sits at it.
+more: its hosts rest, and it ends with status 75, unless it has a terminal.
 
 *Threading*: as the comments say.
 */
@@ -82,7 +82,7 @@ rest :-
     (   setting(typhon_fleet:fenced_exit, true),
         \+ stream_property(user_input, tty(true))
     ->  halt(75)
-    ;   true                            % a person decides
+    ;   true                            % it has a user
     ).
 
                 /*******************************

@@ -167,7 +167,7 @@ locked_out(Redis) :-
                  process_wait(Pid, _),
                  wait_until(error_of(with_journal(true), none), 20) )).
 
-%   It is not asked again, and the process is told once.
+%   The engine is not asked again, and the hook is called once.
 
 test(process_whose_journal_was_taken_over_commits_nothing_more,
      [ forall(member(Ends, [true, gives_back])), true(Told == ['redis:lab/a']) ]) :-
