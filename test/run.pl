@@ -81,6 +81,7 @@ plain(kernel).
 plain(single).
 plain(user_program).
 plain(kinds).
+plain(node_program).
 plain(on_demand).
 
 main(Argv) :-

@@ -20,7 +20,7 @@ if there is one: nothing of the user comes there.
 :- use_module(library(prolog_wrap), [wrap_predicate/4]).
 :- use_module(library(readutil), [read_file_to_terms/3]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/network/children), []).
+:- use_module(library(typhon/network/node_program), []).
 
 :- initialization(life, main).
 
@@ -31,7 +31,7 @@ life :-
 children_start_quickly :-
     getenv('TYPHON_QUICK', Quick),
     !,
-    wrap_predicate(typhon_children:swipl(Swipl), quick, _, Swipl=Quick).
+    wrap_predicate(typhon_node_program:swipl(Swipl), quick, _, Swipl=Quick).
 children_start_quickly.
 
 life(Dir) :-

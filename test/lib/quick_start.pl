@@ -16,7 +16,7 @@
 %   The processes of networks run this state, too: it has no goal of its own,
 %   for which the library avoids saved states.
 
-:- abolish(typhon_children:swipl/1),
-   assertz((typhon_children:swipl(Swipl) :-
+:- abolish(typhon_node_program:swipl/1),
+   assertz((typhon_node_program:swipl(Swipl) :-
                 current_prolog_flag(executable, Swipl))),
-   compile_predicates([typhon_children:swipl/1]).
+   compile_predicates([typhon_node_program:swipl/1]).

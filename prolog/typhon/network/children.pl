@@ -7,15 +7,15 @@
             child_release/1             % +Child
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(lists), [append/3]).
 :- use_module(library(process), [process_kill/2, process_wait/2]).
 :- autoload(library(readutil), [read_line_to_string/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../kernel/base/prolog_faults', [installed_swipl/2, spawn/3]).
+:- use_module('../kernel/base/prolog_faults', [spawn/3]).
 :- use_module('../kernel/wire', [cookie/1, random_hex/2]).
 :- use_module('../options/keys', [own_keys/1]).
 :- use_module(child_output, [output_line/2]).
 :- use_module(machines, [machine_command/5, machine_kill/3, machine_node/3]).
+:- use_module(node_program, [node_file/1, node_flags/1, node_program/2]).
 
 /** <module> Child processes that run the hosts of a network
 
@@ -52,14 +52,7 @@ cannot start, and with down(Tag, Status) when it has ended. The thread is no
            "Seconds for a child to end in order before it is killed").
 
 :- dynamic
-    node_file/1,                % File
     secret/1.                   % of this process, for its children
-
-:- module_property(typhon_children, file(Source)),
-   file_directory_name(Source, Dir),
-   atom_concat(Dir, '/node_process.pl', File),
-   retractall(node_file(_)),
-   assertz(node_file(File)).
 
 %!  child_start(+Tag, +Machine, +At, +Options, :OnEvent, -Child) is det.
 %
@@ -136,26 +129,13 @@ send_term(In, Term) :-
                  module(system), fullstop(true), nl(true) ]),
     flush_output(In).
 
+command(local, Program, Args) :-
+    !,
+    node_program(Program, Args).
 command(Machine, Program, Args) :-
+    node_flags(Flags),
     node_file(File),
-    Flags = ['-q', '-f', none, '-g', node_main, '-t', 'halt(1)'],
-    (   Machine == local
-    ->  swipl(Program),
-        append(Flags, [File], Args)
-    ;   machine_command(Machine, Flags, File, Program, Args)
-    ).
-
-%   swipl(-Program): Program is not a stand-alone saved state. That would run
-%   its own goal, which starts processes, and so on without end.
-
-swipl(Swipl) :-
-    current_prolog_flag(executable, Executable),
-    (   current_prolog_flag(resource_database, State),
-        same_file(State, Executable)
-    ->  current_prolog_flag(home, Home),
-        ( installed_swipl(Home, Swipl0) -> Swipl = Swipl0 ; Swipl = path(swipl) )
-    ;   Swipl = Executable
-    ).
+    machine_command(Machine, Flags, File, Program, Args).
 
                 /*******************************
                 *          FOLLOWING           *

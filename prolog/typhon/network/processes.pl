@@ -12,6 +12,7 @@
 :- use_module('../kernel/travel', [home_agents_at/2]).
 :- use_module(children,
               [child_close/1, child_kill/1, child_release/1, child_start/6]).
+:- use_module(node_program, [node_programs/1]).
 :- use_module(machines, [machine_error/3]).
 :- use_module(nodes,
               [ node/3, node/4, node_again/2, node_came/4,
@@ -85,6 +86,7 @@ nodes_start(Network, P, Machines0, At, Options) :-
     message_queue_create(Queue),
     assertz(queue(Network, Queue)),
     machines(Machines0, Network, Machines),
+    ( memberchk(local, Machines) -> node_programs(P) ; true ),
     length(Machines, M),
     forall(between(1, P, I),
            ( Nth is (I - 1) * M // P + 1,
