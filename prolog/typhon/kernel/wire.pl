@@ -28,7 +28,7 @@ This is the interface of the layer: higher layers import from here.
               endpoint_lasting/1, endpoint_left/1, endpoint_missed/2,
               endpoint_peer/2, endpoint_proof/2 ]).
 :- reexport(wire/frame, [mobile_term/1]).
-:- reexport(wire/handshake, [cookie/1, random_hex/2]).
+:- reexport(wire/handshake, [cookie/1, cookie_given/1, random_hex/2]).
 :- reexport(wire/threads, [manager_notify/1]).
 :- reexport(wire/transport,
             [ endpoint_own_proof/1, line_read/3, line_write/2, refusal_text/2,

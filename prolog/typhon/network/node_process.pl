@@ -14,8 +14,9 @@
               [on_stop_signals/1, process_setup/0]).
 :- use_module('../kernel/base/durable', [durable_on/0]).
 :- use_module('../kernel/wire',
-              [ arrival_permitted/4, peer_expect/1, peer_expect_no_more/1,
-                endpoint_address/1, endpoint_flush/2, endpoint_reply/2 ]).
+              [ arrival_permitted/4, cookie_given/1, peer_expect/1,
+                peer_expect_no_more/1, endpoint_address/1, endpoint_flush/2,
+                endpoint_reply/2 ]).
 :- use_module('../kernel/host',
               [ host/3, host_link/3, host_neighbours/2,
                 host_option/2, host_restart/2, host_start/2, host_stop/1,
@@ -225,7 +226,7 @@ node_main :-
     read_term(user_input,
               node(Cookie, Secret, At, Seconds, Keys, Options), []),
     skip(user_input, 0'\n),     % resets the column that both streams share
-    setenv('TYPHON_COOKIE', Cookie),
+    cookie_given(Cookie),
     with_keys(Keys),
     thread_create(ensure_end(Seconds), _,
                   [alias(typhon_end), detached(true)]),

@@ -48,10 +48,14 @@ test(local_hosts, true(Pids == [Me])) :-
     current_prolog_flag(pid, Me),
     with_network(ring(2), [start(local)], Network,
                  network_property(Network, processes(Pids))).
-test(local_processes) :-
+test(local_processes_do_not_get_the_cookie_by_the_environment, In == none) :-
     with_network(ring(4), [start(local), processes(2)], Network, Hosts,
                  ( network_property(Network, processes([_, _])),
-                   length(Hosts, 4) )).
+                   Hosts = [_, _, _, Host],
+                   create([ (main :- ( getenv('TYPHON_COOKIE', In) -> true
+                                     ; In = none ),
+                                     result(In)) ], Agent, [host(Host)]),
+                   agent_result(Agent, In, 60) )).
 test(wrong_how,
      [ forall(member(How, [far, ssh, ssh([]), ssh(_), ssh(far), ssh('a@b', c),
                            slurm, kubernetes, 7, "ssh", ssh([_]),
@@ -103,18 +107,21 @@ test(virtual_time_stays_here,
        error(permission_error(carry, virtual_time, start(How))) ]) :-
     network_start(ring(2), _, [clock(virtual), start(How)]).
 
-%   What the program that reaches a machine does, and what the error says.
+%   What the program that reaches a machine does, how long the start waits, and
+%   what the error says.
 
-refused("exit 255", "on me@far: ssh cannot log in, try: ssh me@far true").
-refused("exit 127", "on me@far: swipl is not found there").
-refused("exit 1", "on me@far: Typhon does not start there").
+refused("exit 255", 60,
+        "on me@far: ssh cannot log in, try: ssh me@far true").
+refused("exit 127", 60, "on me@far: swipl is not found there").
+refused("exit 1", 60, "on me@far: Typhon does not start there").
 refused("echo \"typhon_node_process_error error(foo_error(1),context(_,_))\"",
-        "on me@far").
-refused("exec sleep 60", "on me@far: it does not answer, try: ssh me@far true").
+        60, "on me@far").
+refused("exec sleep 60", 2,
+        "on me@far: it does not answer, try: ssh me@far true").
 
 test(error_names_the_machine_and_the_remedy,
-     [forall(refused(Line, Said))]) :-
-    with_settings([typhon_processes:start_seconds=2,
+     [forall(refused(Line, Seconds, Said))]) :-
+    with_settings([typhon_processes:start_seconds=Seconds,
                    typhon_children:stop_seconds=0.5],
                   with_ssh(Line, error_of(ssh(['me@far']), _, Text))),
     one_line(Text, [Said]).

@@ -7,6 +7,7 @@
             authenticate/6,             % +Role, +In, +Out, +Hello, :Cookie,
                                         % -PeerHello
             cookie/1,                   % -Cookie
+            cookie_given/1,             % +Cookie
             random_hex/2                % +Count, -Hex
           ]).
 
@@ -275,6 +276,7 @@ proof(Cookie, Role, Client, Server, Proof) :-
 		 *******************************/
 
 :- dynamic
+    given/1,                            % Cookie
     known_cookie/3.                     % File, Time, Cookie
 
 %!  random_hex(+Count, -Hex:atom) is det.
@@ -291,15 +293,19 @@ random_hex(Count, Hex) :-
 
 %!  cookie(-Cookie:string) is det.
 %
-%   Cookie is the secret that all processes of a network share: the value of
-%   the environment variable `TYPHON_COOKIE`, or the content of the file
-%   `TYPHON_COOKIE_FILE`, by default `~/.typhon.cookie`. The file is made
-%   with random content on first use.
+%   Cookie is the secret that all processes of a network share: that of
+%   cookie_given/1, the value of the environment variable `TYPHON_COOKIE`, or the
+%   content of the file `TYPHON_COOKIE_FILE`, by default `~/.typhon.cookie`. The
+%   file is made with random content on first use.
 %
 %   @error permission_error(use, cookie_file, File) if it belongs to another user,
 %   others may read or write it, or it has no cookie of ASCII characters; the
 %   context says which
 
+cookie(Cookie) :-
+    given(Given),
+    !,
+    Cookie = Given.
 cookie(Cookie) :-
     catch(getenv('TYPHON_COOKIE', Value), error(syntax_error(_), _),
           not_ascii('TYPHON_COOKIE')),  % no text of this locale
@@ -320,6 +326,15 @@ cookie(Cookie) :-
         retractall(known_cookie(_, _, _)),
         assertz(known_cookie(File, Time, Cookie))
     ).
+
+%!  cookie_given(+Cookie:string) is det.
+%
+%   From now on Cookie is that of this process.  An environment variable would
+%   show it in each process that this one starts.
+
+cookie_given(Cookie) :-
+    retractall(given(_)),
+    assertz(given(Cookie)).
 
 cookie_file(File) :-
     (   getenv('TYPHON_COOKIE_FILE', File0),

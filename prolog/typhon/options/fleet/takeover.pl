@@ -11,7 +11,8 @@
 :- use_module('../../kernel/host',
               [ address_parts/3, hosts_go_on/0, hosts_rest/0, process_ask/6,
                 runtime_acquire/2 ]).
-:- use_module('../../kernel/wire', [endpoint_address/1]).
+:- use_module('../../kernel/wire',
+              [cookie/1, cookie_given/1, endpoint_address/1]).
 :- use_module(engine, [engine/3, engine_key/3]).
 :- use_module(members,
               [fleet_beat/1, fleet_joined/2, join_fleet/2]).
@@ -122,7 +123,9 @@ started(true, Fleet, Options, Endpoint, Journal) :-
                    [ '-q', '-g', 'typhon_takeover:stand_in', '-t', 'halt(1)',
                      Platform, File ],
                    [stdin(pipe(In)), stdout(null), process(Pid)]),
-    format(In, '~k.~n', [stand_in(Fleet, Options, Interface, Endpoint, Journal)]),
+    cookie(Cookie),
+    format(In, '~k.~n', [stand_in(Cookie, Fleet, Options, Interface, Endpoint,
+                                  Journal)]),
     close(In),
     process_wait(Pid, Status),
     debug(typhon(fleet), 'stand-in for ~w: ~w', [Endpoint, Status]).
@@ -149,7 +152,8 @@ put_in(Arg0, Endpoint, Journal, Arg) :-
 :- public stand_in/0.
 
 stand_in :-
-    read(stand_in(Fleet, Options, Interface, Endpoint, Journal)),
+    read(stand_in(Cookie, Fleet, Options, Interface, Endpoint, Journal)),
+    cookie_given(Cookie),
     atomic_list_concat([Fleet,Journal], /, Path),
     join_fleet(Fleet, Options),
     journal_call(typhon_recovery:hosts_journal(redis(Path), [wait(15)])),
