@@ -265,6 +265,7 @@ start_suite(File, by(Quick, Dir), job(File, Mark, Log, Results, Pid, Start)) :-
     suite_mark(Base, Mark),
     directory_file_path(Dir, Base, Log),
     file_name_extension(Log, results, Results),
+    file_name_extension(Log, cookie, Cookie),   % not that of other suites
     project_file('test/suite.pl', Runner),
     runs(File, Quick, Swipl),
     setup_call_cleanup(
@@ -272,7 +273,10 @@ start_suite(File, by(Quick, Dir), job(File, Mark, Log, Results, Pid, Start)) :-
         suite_process(Swipl,
                       [ '--on-error=print', '--on-warning=print',
                         Runner, '--', File, Results
-                      ], Out, ['TYPHON_SUITE'=Mark, 'TYPHON_QUICK'=Quick], Pid),
+                      ], Out,
+                      [ 'TYPHON_SUITE'=Mark, 'TYPHON_QUICK'=Quick,
+                        'TYPHON_COOKIE_FILE'=Cookie ],
+                      Pid),
         close(Out)).
 
 runs(File, _, Swipl) :-

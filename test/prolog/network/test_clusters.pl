@@ -55,8 +55,9 @@ state(Pid, State) :-
 ended(Pid) :-
     \+ ( state(Pid, State), State \== "Z" ).
 
-%   No argument and no environment of a process of this machine has the cookie:
-%   of a process of the network, or of a program that reaches one.
+%   No argument and no environment of a process of this machine has the cookie,
+%   which no other suite has: of a process of the network, or of a program that
+%   reaches one.
 
 cookie_is_hidden :-
     cookie(Cookie),
