@@ -17,10 +17,9 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(travel/arrival, [parcel_admit/3, parcel_returned/3]).
 :- reexport(travel/whereabouts,
             [ agent_born/2, agent_ended/4, agent_ends/2, agent_faulty/5,
-              agent_known_at/2,
-              agent_outcome/2, agent_resumed/3, agent_resumed_from/3,
-              ended_agent/1, home_agents/1, home_agents_at/2, home_knows/4,
-              outcome_wait/3, whereabouts/2 ]).
+              agent_known_at/2, agent_outcome/2, agent_resumed/3,
+              agent_resumed_from/3, end_noted/4, ended_agent/1, home_agents/1,
+              home_agents_at/2, home_knows/4, outcome_wait/3, whereabouts/2 ]).
 :- reexport(travel/outcomes, [clone_born/2, clones_ask/3, results_ask/4]).
 :- reexport(travel/mail,
             [ mail_admit/3, mail_lost/3, post/3, post_on/2, post_tried/0, post_via/4,

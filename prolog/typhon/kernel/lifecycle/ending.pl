@@ -21,8 +21,8 @@
                 fault_shown/2, fault_stamp/2, is_faulty/3, life_hops/2,
                 result_facts/2, with_agent/2 ]).
 :- use_module('../travel',
-              [ agent_ended/4, agent_ends/2, agent_faulty/5, move_over/2,
-                transfer_given_up/2 ]).
+              [ agent_ended/4, agent_ends/2, agent_faulty/5, end_noted/4,
+                move_over/2, transfer_given_up/2 ]).
 :- use_module(questions, [question_answered/2]).
 
 /** <module> How agents end, or are kept when they are faulty
@@ -55,14 +55,28 @@ agent_end(Id, Outcome) :-
 agent_end(Id, Test, Outcome) :-
     unit_of_work(( with_agent(Id, ( agent_status(Id, Status, Goals),
                                     call(Test, Status),
-                                    remove(Id, Status, Goals, Last)
+                                    last_outcome(Status, Goals, Outcome,
+                                                 Last),
+                                    remove(Id, Status, Goals, Last, End)
                                   )),
-                   after_removal(Last, Id, Outcome) )).
+                   after_removal(End, Id) )).
 
-remove(Id, Status, Goals, last(Host, Hops, Status, Goals, Results, Orders)) :-
+%   The bad end was reported when the agent became faulty.
+
+last_outcome(faulty(_), Goals, _, Outcome) :-
+    !,
+    is_faulty(Goals, Fault, _),
+    fault_outcome(Fault, Outcome).
+last_outcome(_, _, Outcome, Outcome).
+
+%   Each moment the agent is here, or its end is noted.
+
+remove(Id, Status, Goals, Outcome,
+       end(Host, Hops, Status, Outcome, Results, Orders)) :-
     agent(Id, Host, Module, _, Life),
     life_hops(Life, Hops),
     result_facts(Module, Results),
+    end_noted(Id, Outcome, Hops, Results),
     (   Status = transit(_, _)
     ->  transfer_given_up(Id, Goals)
     ;   dropped_if_held(Goals)
@@ -71,9 +85,9 @@ remove(Id, Status, Goals, last(Host, Hops, Status, Goals, Results, Orders)) :-
     agent_ends(Id, Hops),
     agent_remove(Id, Orders).
 
-after_removal(Last, Id, Outcome) :-
-    report_end(Last, Id, Outcome),
-    arg(6, Last, Orders),
+after_removal(End, Id) :-
+    report_end(End, Id),
+    arg(6, End, Orders),
     answer_none(Id, Orders).
 
 %   Callers that wait for an answer to an order get `none`.
@@ -96,16 +110,12 @@ agent_forgotten(Id, Test) :-
     host_uncount(Host),
     answer_none(Id, Orders).
 
-%   The bad end was reported when the agent became faulty.
-
-report_end(last(Host, Hops, faulty(_), Goals, Results, _), Id, _) :-
+report_end(end(Host, Hops, faulty(_), Outcome, Results, _), Id) :-
     !,
     events_forget(Id),
-    is_faulty(Goals, Fault, _),
-    fault_outcome(Fault, Outcome),
     event(faults, Host, Id, ended(Outcome)),
     agent_ended(Id, Outcome, Hops, Results).
-report_end(last(Host, Hops, Status, _, Results, _), Id, Outcome) :-
+report_end(end(Host, Hops, Status, Outcome, Results, _), Id) :-
     debug(typhon(agent), '~w: ends on ~w, ~p', [Id, Host, Outcome]),
     warn_if_in_doubt(Status, Id),
     host_uncount(Host),

@@ -100,19 +100,24 @@ outcome_known(Outcome, _, _, Outcome).
 is_gone(host_unreachable(_)).
 is_gone(connection_lost(_)).
 
-end_known(Agent, _, Outcome) :-
+end_known(Agent, Until, Outcome) :-
+    (   has_ended(Agent, Outcome0)
+    ->  Outcome = Outcome0
+    ;   agent_known_at(Agent, _)
+    ->  seconds_left(Until, Seconds),
+        (   Seconds > 0
+        ->  Pause is min(0.2, Seconds),
+            sleep(Pause),
+            end_known(Agent, Until, Outcome)
+        ;   Outcome = timeout
+        )
+    ;   has_ended(Agent, Outcome)       % between the two questions
+    ).
+
+has_ended(Agent, Outcome) :-
     known_end(Agent, Outcome0),
     !,
     Outcome = Outcome0.
-end_known(Agent, Until, Outcome) :-
-    agent_known_at(Agent, _),           % it has not ended
-    seconds_left(Until, Seconds),
-    (   Seconds > 0
-    ->  Pause is min(0.2, Seconds),
-        sleep(Pause),
-        end_known(Agent, Until, Outcome)
-    ;   Outcome = timeout
-    ).
 
 join(Endpoint, Agent, Seconds, Outcome) :-
     home_here(Agent, Endpoint),

@@ -79,7 +79,7 @@ resolve_in_doubt/1 in reader threads, which never wait; ask_peers/2 in a worker.
 :- use_module(outcomes, [clone_unborn/2]).
 :- use_module(whereabouts,
               [ agent_departed_to/4, agent_ended/4, agent_location/4,
-                departure_noted/4, hop_is_new/3 ]).
+                departure_noted/4, end_noted/4, hop_is_new/3 ]).
 
 :- setting(typhon_in_doubt:shown_seconds, number, 3,
            "Seconds under way after which an agent is shown as in doubt").
@@ -327,6 +327,7 @@ stays(transfer(Id, dest(Address, _, _), Hops), Error) :-
     ignore(with_agent(Id, back(Id, Hops, Address, Error))).
 stays(clone_transfer(Id, dest(Address, _, _), CloneId), Error) :-
     clone_unborn(Id, CloneId),
+    end_noted(CloneId, failed, 1, []),
     agent_ended(CloneId, failed, 1, []),
     ignore(with_agent(Id, clone_back(Id, CloneId, stays(Address, Error)))).
 

@@ -12,6 +12,7 @@
             departure_noted/4,          % +Id, +Address, +Hops, +Peer
             agent_ends/2,               % +Id, +Hops
             ended_agent/1,              % ?Id
+            end_noted/4,                % +Id, +Outcome, +Hops, +Results
             agent_ended/4,              % +Id, +Outcome, +Hops, +Results
             agent_faulty/5,             % +Id, +Outcome, +Stamp, +Address,
                                         % +Hops
@@ -478,12 +479,18 @@ agent_ends(Id, Hops) :-
 ended_agent(Id) :-
     ended_here(Id, _).
 
+%!  end_noted(+Id, +Outcome, +Hops, +Results:list) is det.
+%
+%   Options note that Id ends here after Hops hops, and its Results.
+
+end_noted(Id, Outcome, Hops, Results) :-
+    forall(ended_with(Id, Outcome, Hops, Results), true).
+
 %!  agent_ended(+Id, +Outcome, +Hops, +Results:list) is det.
 %
 %   Report to the home of Id that Id ended after Hops hops, and its Results.
 
 agent_ended(Id, Outcome, Hops, Results) :-
-    forall(ended_with(Id, Outcome, Hops, Results), true),
     end_news(Results, Id, Outcome, Hops, News),
     report_to_home(Id, News).
 

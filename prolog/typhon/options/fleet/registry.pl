@@ -3,7 +3,7 @@
 :- use_module(library(option), [option/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/agent',
-              [agent_here/5, agent_home_endpoint/2, life_hops/2]).
+              [agent_here/5, agent_home_endpoint/2, agent_on/2, life_hops/2]).
 :- use_module('../../kernel/base/bounds', [bounded/3]).
 :- use_module('../../kernel/base/monotonic', [deadline/2, monotonic_time/1]).
 :- use_module('../../kernel/host', [host/3]).
@@ -38,8 +38,8 @@ names: with all that is known of it, it is forgotten with its home.
 
 :- dynamic
     reported/4,                 % Fleet, Id, Hops, Host
-    ended/3,                    % Fleet, Id, Text: not reported yet
-    told/3.                     % Fleet, Id, Text: for an engine that loses it
+    ended/3,                    % Fleet, Id, Text
+    unreported/2.               % Fleet, Id: of an end
 
 typhon_on_demand:joins(fleet, joined).
 
@@ -49,17 +49,19 @@ typhon_on_demand:joins(fleet, joined).
 
 typhon_members:is_new(Fleet) :-
     retractall(reported(Fleet, _, _, _)),
-    findall(Id-Text, told(Fleet, Id, Text), Ends),
-    forall(member(Id-Text, Ends),
-           ( retractall(told(Fleet, Id, _)),
-             note_end(Fleet, Id, Text) )).
+    findall(Id, ended(Fleet, Id, _), Ids),
+    forall(member(Id, Ids), must_report(Fleet, Id)).
+
+must_report(Fleet, Id) :-
+    bounded(unreported(_, _), typhon_fleet:outcomes,
+            assertz(unreported(Fleet, Id))).
 
 typhon_members:work(Fleet) :-
     report_until(Fleet, Until),
     findall(Id-Hops-Host, moved(Fleet, Id, Hops, Host), Moved),
     in_parts(500, Until, Moved, report_moves(Fleet)),
     forget_others(Fleet),
-    findall(Id-Text, ended(Fleet, Id, Text), Ended),
+    findall(Id-Text, ( unreported(Fleet, Id), ended(Fleet, Id, Text) ), Ended),
     in_parts(500, Until, Ended, report_ends(Fleet)).
 
 %   The thread renews a lease, too: of a slow engine each report asks little, and
@@ -112,10 +114,7 @@ report_ends(Fleet, Part) :-
     append(Lists, Args),
     setting(typhon_fleet:outcomes, Most),
     engine_script(Fleet, ends, [Most|Args], _),
-    forall(member(Id-Text, Part),
-           ( retractall(ended(Fleet, Id, _)),
-             bounded(told(_, _, _), typhon_fleet:outcomes,
-                     assertz(told(Fleet, Id, Text))) )).
+    forall(member(Id-_, Part), retractall(unreported(Fleet, Id))).
 
 %   Hops is not needed: an agent ends once.
 
@@ -125,7 +124,8 @@ typhon_whereabouts:ended_with(Id, Outcome, _, Results) :-
 
 note_end(Fleet, Id, Text) :-
     bounded(ended(_, _, _), typhon_fleet:outcomes,
-            assertz(ended(Fleet, Id, Text))).
+            assertz(ended(Fleet, Id, Text))),
+    must_report(Fleet, Id).
 
 end_text(Outcome, Results, Text) :-
     setting(typhon_fleet:outcome_length, Most),
@@ -151,6 +151,10 @@ asked(Kind, Id, Text) :-
     !.
 
 typhon_whereabouts:known_at(Id, Address) :-
+    fleet_joined(_, _),
+    agent_on(Id, Host),
+    host(Host, Address, _).
+typhon_whereabouts:known_at(Id, Address) :-
     asked(agents, Id, Text),
     split_string(Text, " ", "", [_,Address0]),
     atom_string(Address, Address0).
@@ -161,12 +165,10 @@ typhon_join:known_end(Id, Outcome) :-
 typhon_join:known_results(Id, Results) :-
     end(Id, end(_, results(Results))).
 
-%   What ended here is known at once, and elsewhere with the next report.
+%   What is here, or has ended here, is known at once, and elsewhere with the next report.
 
 end(Id, End) :-
     (   ended(_, Id, Text)
-    ->  true
-    ;   told(_, Id, Text)
     ->  true
     ;   asked(ends, Id, Text)
     ),

@@ -16,6 +16,7 @@ An option knows it; here the suite does so.
     at/2,                               % Id, Address
     end/2,                              % Id, Outcome
     results/2,                          % Id, Results
+    ends_when_asked/1,                  % Id
     ended/4.                            % Id, Outcome, Hops, Results
 
 :- multifile
@@ -25,9 +26,14 @@ An option knows it; here the suite does so.
     typhon_join:known_results/2.
 
 typhon_whereabouts:ended_with(Id, Outcome, Hops, Results) :-
+    typhon_agents:agent_on(Id, _),
     assertz(test_homeless:ended(Id, Outcome, Hops, Results)).
 typhon_whereabouts:known_at(Id, Address) :-
     test_homeless:at(Id, Address).
+typhon_whereabouts:known_at(Id, _) :-
+    retract(test_homeless:ends_when_asked(Id)),
+    assertz(test_homeless:end(Id, done)),
+    fail.
 typhon_join:known_end(Id, Outcome) :-
     test_homeless:end(Id, Outcome).
 typhon_join:known_results(Id, Results) :-
@@ -87,6 +93,9 @@ test(agent_of_a_dead_process_is_where_it_was, Where == Beta) :-
                           agent_where(A, Where) ))).
 test(end_without_a_home_is_known, Outcome == done) :-
     on_alpha(( homeless(A), known(end(A, done)), agent_join(A, Outcome, 5) )).
+test(end_between_two_questions_is_known, Outcome == done) :-
+    on_alpha(( homeless(A), known(ends_when_asked(A)),
+               agent_join(A, Outcome, 5) )).
 test(end_without_a_home_is_an_error, error(host_unreachable(_))) :-
     on_alpha(( homeless(A), agent_join(A, _, 5) )).
 test(end_that_the_home_does_not_know_is_known, Outcome == failed) :-
@@ -109,7 +118,8 @@ test(result_without_a_home_is_known, Result == two) :-
 test(result_that_no_option_knows_is_an_error,
      error(host_unreachable(_))) :-
     on_alpha(( homeless(A), known(end(A, done)), agent_result(A, _, 5) )).
-test(end_is_reported_where_it_was, Ends == [end(done, 0, [result(r)])]) :-
+test(end_is_noted_where_it_was_before_the_agent_is_gone,
+     Ends == [end(done, 0, [result(r)])]) :-
     on_alpha(( create([ (main :- result(r)) ], A, [host(alpha)]),
                joined(A, done),
                findall(end(O, N, Rs), ended(A, O, N, Rs), Ends) )).

@@ -165,14 +165,21 @@ test(agent_is_found_without_its_home, Host == Alpha) :-
                               peer_kill(beta),
                               agent_where(Agent, Host) )) )).
 
-test(outcome_and_results_outlive_the_home, Outcome-Result == done-2) :-
-    with_fleet([lease(2), report(0.2)], Redis, [alpha-[]],
-               ( member_spec(Redis, beta, [lease(2)], [], Beta),
+%   Also if the engine has not learnt yet where the agent is, and when it is gone.
+
+test(outcome_and_results_outlive_the_home,
+     [ forall(member(Report, [0.2, 600])),
+       true(Outcome-Result == done-2) ]) :-
+    with_fleet([report(Report)], Redis, [alpha-[]],
+               ( member_spec(Redis, beta, [], [], Beta),
                  address(alpha, Alpha),
                  with_peers([Beta],
                             ( traveller(Alpha, Agent),
                               peer_kill(beta),
+                              agent_join(Agent, timeout, 0.1),
                               agent_send(Agent, go),
+                              agent_join(Agent, done, 30),
+                              redis_signal(Redis, kill),
                               agent_join(Agent, Outcome, 30),
                               agent_result(Agent, Result, 30) )) )).
 
