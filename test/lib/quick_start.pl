@@ -12,6 +12,23 @@
 :- use_module('../../prolog/typhon/options/journal', []).
 :- use_module('../../prolog/typhon/options/snapshot', []).
 :- use_module(quick_system, []).
+:- use_module(slowness, [patience/2]).
+:- use_module(library(settings), [load_settings/1]).
+
+%   An engine of a fleet that answers late on a busy machine is not down. The
+%   setting is that of a module that is not loaded yet.
+
+engine_has_time :-
+    patience(2, Seconds),
+    setup_call_cleanup(
+        tmp_file_stream(utf8, File, Out),
+        format(Out, '~q.~n',
+               [setting(typhon_fleet:engine_seconds, Seconds)]),
+        close(Out)),
+    load_settings(File),
+    delete_file(File).
+
+:- engine_has_time.
 
 %   The processes of networks run this state, too: it has no goal of its own,
 %   for which the library avoids saved states.

@@ -7,6 +7,8 @@
             redis_restart/1,            % +Redis
             redis_empty/1,              % +Redis
             redis_line/3,               % +Redis, +Command, -Lines
+            lease_lapses/2,             % +Redis, +Host
+            journal_lapses/2,           % +Redis, +Host
             with_fleet/4,               % +Options, -Redis, +Specs, :Goal
             member_spec/5               % +Redis, +Name, +Joins, +Host, -Spec
           ]).
@@ -19,12 +21,14 @@ Each has its data in a temporary directory, and confirms what is on the disk.
 */
 
 :- use_module(common).
+:- use_module(slowness, [patience/2]).
 :- use_module(texts, [write_file/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(process),
               [process_create/3, process_kill/2, process_wait/2]).
 :- use_module(library(readutil), [read_stream_to_codes/2]).
+:- use_module(library(settings), [current_setting/1, set_setting/2]).
 :- use_module(library(socket),
               [tcp_close_socket/1, tcp_connect/2, tcp_socket/1]).
 :- use_module(library(typhon)).
@@ -86,7 +90,8 @@ sentinel_in(Dir, Master, '127.0.0.1':Port, Goal) :-
 %!  redis_signal(+Redis, +Signal) is det.
 %
 %   Start Redis again, at its port; send it Signal, and wait for its end where
-%   that ends it.
+%   that ends it. Of a suspended engine an answer is not waited for as long as on
+%   a busy machine.
 
 redis_restart(redis(Port, Dir, Options)) :-
     append(['--port', Port, '--bind', '127.0.0.1', '--dir', Dir, '--save', '',
@@ -113,6 +118,15 @@ redis_signal(redis(Port, _, _), Signal) :-
     (   ( Signal == kill ; Signal == term )
     ->  process_wait(Pid, _),
         retractall(running(Port, _))
+    ;   Signal == stop
+    ->  engine_waits(2)
+    ;   patience(2, Seconds),
+        engine_waits(Seconds)
+    ).
+
+engine_waits(Seconds) :-
+    (   current_setting(typhon_fleet:engine_seconds)
+    ->  set_setting(typhon_fleet:engine_seconds, Seconds)
     ;   true
     ).
 
@@ -147,10 +161,36 @@ redis_line(redis(Port, _, _), Command, Lines) :-
     split_string(Codes, "\n", "\r", Lines0),
     append(Lines, [""], Lines0).
 
+%!  lease_lapses(+Redis, +Host) is det.
+%!  journal_lapses(+Redis, +Host) is det.
+%
+%   A process with Host, which does not run, loses its lease; another one may then
+%   open its journal. This process, a member, notices each.
+
+lease_lapses(Redis, Host) :-
+    atomic_list_concat([_,E], @, Host),
+    redis_line(Redis, [zadd,'f:{lab}:lease',xx,0,E], _),
+    redis_line(Redis, [set,'f:{lab}:grace',0], _),
+    % the next look at others is a twentieth of a lease later
+    wait_until(( redis_line(Redis, [decrby,'f:{lab}:last',4000], _),
+                 typhon_members:fleet_told(lab),
+                 redis_line(Redis, [zscore,'f:{lab}:gone',E], [Since]),
+                 Since \== "" ), 30).
+
+journal_lapses(Redis, Host) :-
+    atomic_list_concat([_,E], @, Host),
+    atom_concat('f:{lab}:p:', E, Process),
+    redis_line(Redis, [hget,Process,journal], [Journal]),
+    atomic_list_concat(['f:{lab}:j:',Journal,':lease'], Lease),
+    redis_line(Redis, [del,Lease], _),
+    redis_line(Redis, [zadd,'f:{lab}:orphans',xx,0,E], _),
+    typhon_members:fleet_told(lab).
+
 %!  with_fleet(+Options, -Redis, +Specs, :Goal) is semidet.
 %
 %   As once(Goal), in a member of the fleet `lab`, which joined it with Options,
-%   with the hosts of Specs, Name-Tags.  Nothing may be left afterwards.
+%   with the hosts of Specs, Name-Tags.  Nothing may be left afterwards.  Unless
+%   Options say it no lease lapses where a busy machine stops a process for a while.
 
 with_fleet(Options, Redis, Specs, Goal) :-
     no_leaks(with_redis(Redis, as_member(Options, Redis, Specs, Goal))).
@@ -160,7 +200,8 @@ with_fleet(Options, Redis, Specs, Goal) :-
 as_member(Options, Redis, Specs, Goal) :-
     redis_address(Redis, Address),
     setup_call_cleanup(
-        fleet_join(lab, [redis(Address)|Options]),
+        ( lasting(Options, Joins),
+          fleet_join(lab, [redis(Address)|Joins]) ),
         ( forall(member(Name-Tags, Specs),
                  host_start(Name, [fleet(lab), tags(Tags)])),
           once(Goal) ),
@@ -172,7 +213,14 @@ as_member(Options, Redis, Specs, Goal) :-
 %   Spec is that of with_peers/2 for a process that joins `lab` with the options
 %   Joins; its host has the options Host.
 
-member_spec(Redis, Name, Joins, Host,
+member_spec(Redis, Name, Joins0, Host,
             Name-[ setup(fleet_join(lab, [redis(Address)|Joins])),
                    host([fleet(lab)|Host]) ]) :-
-    redis_address(Redis, Address).
+    redis_address(Redis, Address),
+    lasting(Joins0, Joins).
+
+lasting(Joins0, Joins) :-
+    (   memberchk(lease(_), Joins0)
+    ->  Joins = Joins0
+    ;   Joins = [lease(60)|Joins0]
+    ).

@@ -397,7 +397,8 @@ behind(Proxy, Goal) :-
     proxy_address(Proxy, Address0),
     atomic_list_concat([Host,Port0], :, Address0),
     atom_number(Port0, Port),
-    with_peers([beta-[ setup(fleet_join(lab, [lease(2), redis(Host:Port)])),
+    with_peers([beta-[ setup(( fleet_join(lab, [lease(2), redis(Host:Port)]),
+                               set_setting(typhon_fleet:engine_seconds, 2) )),
                        host([fleet(lab)]) ],
                 gamma],
                ( up([alpha,beta]), once(Goal) )).

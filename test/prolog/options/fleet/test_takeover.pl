@@ -49,13 +49,13 @@ stored(Redis, Id) :-
     atom_concat('f:{lab}:agents:', Home, Key),
     redis_line(Redis, [hexists, Key, Id], ["1"]).
 
-%   counting(+Redis, +Joins, :Goal): Goal in a member without a journal; peer
+%   counting(+Redis, -Agent, :Goal): Goal in a member without a journal; peer
 %   `beta` has its journal in the engine, and an agent that counts messages.
 
-:- meta_predicate counting(+, +, -, 0).
+:- meta_predicate counting(+, -, 0).
 
-counting(Redis, Joins, Agent, Goal) :-
-    member_spec(Redis, beta, Joins, [journal(redis('lab/beta'))], Beta),
+counting(Redis, Agent, Goal) :-
+    member_spec(Redis, beta, [], [journal(redis('lab/beta'))], Beta),
     with_peers([Beta],
                ( peer_agent(beta, [ (:- agent(counter)), (:- dynamic(n/1)),
                                     (main :- receive(From-next), retract(n(N0)),
@@ -90,18 +90,27 @@ asked(Counter, N) :-
     agent_result(Asker, Said, 10),
     assertion(Said == N).
 
-stands_in(Agent) :-
+%   Another process goes on in place of the peer, which does not run.
+
+stands_in(Redis, Agent) :-
+    peer_host(beta, Host),
+    lease_lapses(Redis, Host),
+    are_up([alpha]),
+    journal_lapses(Redis, Host),
     up([alpha,beta]),
     asked(Agent, 2),
     asked(Agent, 3).
 
-gone :-
-    wait_until(test_takeover:are_up([alpha]), 30).
+%   The peer renews its lease, or ends, since another process has its place.
+
+beats(Peer) :-
+    catch(peer_do(Peer, typhon_members:fleet_beat(lab)),
+          error(system_error(peer_died(Peer)), _), true).
 
 :- begin_tests(drain).
 
 test(agents_go_to_hosts_of_the_first_tag, Where == [beta,beta,gamma,gamma]) :-
-    with_fleet([lease(2)], _, [alpha-[x,y], beta-[x], gamma-[x], delta-[y]],
+    with_fleet([], _, [alpha-[x,y], beta-[x], gamma-[x], delta-[y]],
                ( findall(A, ( between(1, 4, _),
                               create([(main :- receive(_-go))], A, [host(alpha)]) ),
                          Agents),
@@ -113,21 +122,21 @@ test(agents_go_to_hosts_of_the_first_tag, Where == [beta,beta,gamma,gamma]) :-
                  up([beta,delta,gamma]) )).
 
 test(agents_go_where_the_option_says, Name == delta) :-
-    with_fleet([lease(2)], _, [alpha-[x,y], beta-[x], delta-[y]],
+    with_fleet([], _, [alpha-[x,y], beta-[x], delta-[y]],
                ( create([(main :- receive(_-go))], A, [host(alpha)]),
                  fleet_drain(alpha, [to(y)]),
                  agent_where(A, Host),
                  atomic_list_concat([Name|_], @, Host) )).
 
 test(static_agents_stay_and_are_listed, Stay == [A]) :-
-    with_fleet([lease(2)], _, [alpha-[x], beta-[x]],
+    with_fleet([], _, [alpha-[x], beta-[x]],
                ( create([(main :- receive(_-go))], A, [host(alpha), static(true)]),
                  create([(main :- receive(_-go))], _, [host(alpha)]),
                  fleet_drain(alpha, [stay(Stay)]),
                  up([beta]) )).
 
 test(warning_lists_what_stays) :-
-    with_fleet([lease(2)], _, [alpha-[x], beta-[x]],
+    with_fleet([], _, [alpha-[x], beta-[x]],
                ( create([(main :- receive(_-go))], A, [host(alpha), static(true)]),
                  capturing(fleet_drain(alpha, []), _),
                  assertion(was_printed(warning,
@@ -135,12 +144,12 @@ test(warning_lists_what_stays) :-
 
 test(host_with_no_other_is_not_drained,
      throws(error(resource_error(hosts(x)), _))) :-
-    with_fleet([lease(2)], _, [alpha-[x], beta-[y]],
+    with_fleet([], _, [alpha-[x], beta-[y]],
                call_cleanup(fleet_drain(alpha, []), up([alpha,beta]))).
 
 test(nothing_chooses_a_drained_host,
      throws(error(resource_error(hosts(x)), _))) :-
-    with_fleet([lease(2)], _, [alpha-[x], beta-[y]],
+    with_fleet([], _, [alpha-[x], beta-[y]],
                ( fleet_drain(alpha, [to(y)]),
                  create([(main :- true)], _, [host(any(x))]) )).
 
@@ -157,8 +166,8 @@ test(wrong, [forall(wrong(Goal, Formal)), throws(error(Formal, _))]) :-
 :- begin_tests(registry).
 
 test(agent_is_found_without_its_home, Host == Alpha) :-
-    with_fleet([lease(2), report(0.2)], Redis, [alpha-[]],
-               ( member_spec(Redis, beta, [lease(2)], [], Beta),
+    with_fleet([report(0.2)], Redis, [alpha-[]],
+               ( member_spec(Redis, beta, [], [], Beta),
                  address(alpha, Alpha),
                  with_peers([Beta],
                             ( traveller(Alpha, Agent),
@@ -184,8 +193,8 @@ test(outcome_and_results_outlive_the_home,
                               agent_result(Agent, Result, 30) )) )).
 
 test(engine_that_lost_all_knows_agents_and_ends_again, Host-Outcome == Alpha-done) :-
-    with_fleet([lease(2), report(0.2)], Redis, [alpha-[]],
-               ( member_spec(Redis, beta, [lease(2)], [], Beta),
+    with_fleet([report(0.2)], Redis, [alpha-[]],
+               ( member_spec(Redis, beta, [], [], Beta),
                  address(alpha, Alpha),
                  with_peers([Beta],
                             ( traveller(Alpha, Agent),
@@ -195,6 +204,7 @@ test(engine_that_lost_all_knows_agents_and_ends_again, Host-Outcome == Alpha-don
                               agent_join(Other, done, 30),
                               wait_until(test_takeover:stored(Redis, Agent), 30),
                               redis_empty(Redis),
+                              typhon_members:fleet_beat(lab),
                               wait_until(test_takeover:stored(Redis, Agent), 30),
                               agent_where(Agent, Host),
                               wait_until(test_takeover:ended(Other, Outcome),
@@ -209,29 +219,32 @@ test(agent_that_no_fleet_knows,
 :- begin_tests(takeover).
 
 test(killed_process_goes_on_in_a_stand_in) :-
-    with_fleet([lease(2), recover(true)], Redis, [alpha-[]],
-               counting(Redis, [lease(2)], Agent,
-                        ( peer_kill(beta), gone, stands_in(Agent) ))).
+    with_fleet([recover(true)], Redis, [alpha-[]],
+               counting(Redis, Agent,
+                        ( peer_kill(beta), stands_in(Redis, Agent) ))).
 
-%   one that was suspended meanwhile sends nothing more, and ends with status 75.
+%   One that was suspended meanwhile sends nothing more, and ends with status 75.
 
 test(suspended_process_is_fenced) :-
-    with_fleet([lease(2), recover(true)], Redis, [alpha-[]],
-               counting(Redis, [lease(2)], Agent,
+    with_fleet([recover(true)], Redis, [alpha-[]],
+               counting(Redis, Agent,
                         ( peer_signal(beta, stop),
-                          gone,
-                          stands_in(Agent),
+                          stands_in(Redis, Agent),
                           peer_signal(beta, cont),
+                          beats(beta),
                           peer_ends(beta, Status),
                           assertion(Status == exit(75)),
                           asked(Agent, 4) ))).
 
 test(process_that_comes_back_in_time_keeps_its_journal) :-
-    with_fleet([lease(4), recover(true)], Redis, [alpha-[]],
-               counting(Redis, [lease(4)], Agent,
+    with_fleet([recover(true)], Redis, [alpha-[]],
+               counting(Redis, Agent,
                         ( peer_signal(beta, stop),
-                          wait_until(test_takeover:are_up([alpha]), 30),
+                          peer_host(beta, Host),
+                          lease_lapses(Redis, Host),
+                          are_up([alpha]),
                           peer_signal(beta, cont),
+                          beats(beta),
                           up([alpha,beta]),
                           asked(Agent, 2) ))).
 
@@ -243,13 +256,15 @@ told_command(Dir, Text, Wanted) :-
     format(atom(Script), 'echo "$1 $2" > ~w.new && mv ~w.new ~w',
            [File, File, File]),
     Command = [sh, '-c', Script, sh, '{endpoint}', 'j={journal}'],
-    with_fleet([lease(2), recover(Command)], Redis, [alpha-[]],
-               ( member_spec(Redis, beta, [lease(2)],
+    with_fleet([recover(Command)], Redis, [alpha-[]],
+               ( member_spec(Redis, beta, [],
                              [journal(redis('lab/beta'))], Beta),
                  with_peers([Beta],
                             ( up([alpha,beta]),
                               peer_host(beta, Host),
                               peer_kill(beta),
+                              lease_lapses(Redis, Host),
+                              journal_lapses(Redis, Host),
                               wait_until(exists_file(File), 60) )) )),
     read_file_to_string(File, Text, []),
     atomic_list_concat([_,Endpoint], @, Host),
