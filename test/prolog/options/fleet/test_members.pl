@@ -164,16 +164,23 @@ test(changes_during_a_lost_connection_are_seen) :-
 
 :- begin_tests(engines).
 
-test(engine_that_is_suspended_lapses_nobody) :-
-    with_fleet([lease(2)], Redis, [alpha-[]],
-               ( member_spec(Redis, beta, [lease(2)], [], Beta),
+test(outage_longer_than_a_lease_lapses_no_member) :-
+    with_fleet([], Redis, [alpha-[]],
+               ( member_spec(Redis, beta, [], [], Beta),
                  with_peers([Beta], out(Redis)) )).
+
+%   For the engine more than a lease has passed since the last beat.
 
 out(Redis) :-
     listed([state(up)], [alpha,beta]),
-    redis_signal(Redis, stop),
-    sleep(5),                           % longer than a lease
-    redis_signal(Redis, cont),
+    redis_line(Redis,
+               [ eval, "local p = 'f:{lab}:' redis.call('SET', p..'grace', 0) \c
+                        redis.call('DECRBY', p..'last', 61000) \c
+                        for _, e in ipairs(redis.call('ZRANGE', p..'lease', 0, -1)) \c
+                        do redis.call('ZINCRBY', p..'lease', -61000, e) end",
+                 0 ], _),
+    typhon_members:fleet_told(lab),
+    peer_do(beta, typhon_members:fleet_told(lab)),
     listed([state(up)], [alpha,beta]),
     redis_line(Redis, [xrange, 'f:{lab}:events', -, +], Lines),
     assertion(\+ memberchk("away", Lines)).
