@@ -74,6 +74,23 @@ nothing_is_left(Redis) :-
     forall(member(Lines, [Keys,Parcels,Bytes,Others]),
            memberchk(Lines, [[""], [], ["0"], ["(integer) 0"]])).
 
+%   time_is_over(+Redis, +Agent): that for which it waits.
+
+time_is_over(Redis, Agent) :-
+    redis_line(Redis, [zadd,'f:{lab}:due',xx,0,Agent], _).
+
+%   source_looks(+Agent): its source, this process, looks at once whether the
+%   engine has kept it.
+
+source_looks(A) :-
+    alarm(A, Token),
+    typhon_scheduler:fire(A, Token).
+
+alarm(A, Token) :-
+    typhon_scheduler:alarm_stamp(_, A, Token),
+    Token = parked(_, _, _, _),
+    !.
+
 parked_again(Redis, A, Robot, [Hops,E,_|Others], Parcel) :-
     format(atom(Key), 'f:{lab}:park:~w', [E]),
     redis_line(Redis, [hset, 'f:{lab}:parcels', A, Parcel], _),
@@ -293,10 +310,11 @@ test(agent_goes_on_where_it_was_when_the_time_is_over, Result
     with_robot([fsync(always)], [], Redis, Robot,
                ( peer_kill(robot),
                  address(alpha, Alpha),
-                 visitor(Robot, 3, A),
+                 visitor(Robot, 600, A),
                  gone([A]),
                  agent_send(A, hello),
                  agent_send(A, last),
+                 time_is_over(Redis, A),
                  agent_result(A, Result, 60),
                  wait_until(test_parking:nothing_is_left(Redis), 10) )).
 
@@ -506,10 +524,10 @@ test(letters_that_an_engine_has_lost_are_sent_again,
                ( peer_kill(robot),
                  visitor(Robot, 600, A),
                  gone([A]),
-                 with_settings([typhon_fleet:sure_seconds=4],
-                               ( forgets(Redis, send_all([A], [1,2])),
-                                 send_all([A], [3,last]),
-                                 wait_until(test_parking:letters(Redis, Robot, 5), 30) )),
+                 with_settings([typhon_fleet:sure_seconds=600],
+                               forgets(Redis, send_all([A], [1,2]))),
+                 send_all([A], [3,last]),
+                 wait_until(test_parking:letters(Redis, Robot, 5), 30),
                  wait_until(\+ typhon_parking:letter(A, _, _), 30),
                  peer_restart(robot),
                  agent_result(A, Result, 60) )).
@@ -536,20 +554,22 @@ test(where_senders_are_checked_messages_of_agents_are_not_kept) :-
 test(agent_is_parked_again_in_an_engine_that_came_back_empty,
      Result == [none,Robot,1]) :-
     with_robot([], [], Redis, Robot,
-               with_settings([typhon_fleet:sure_seconds=4],
-                   ( peer_kill(robot),
-                     visitor(Robot, 600, A),
-                     await_parked([A]),
-                     assertion(typhon_agents:agent_on(A, _)),
-                     redis_signal(Redis, kill),
-                     Redis = redis(_, Dir, _),
-                     directory_file_path(Dir, appendonlydir, Data),
-                     delete_directory_and_contents(Data),
-                     redis_restart(Redis),
-                     gone([A]),
-                     peer_restart(robot),
-                     agent_send(A, last),
-                     agent_result(A, Result, 60) ))).
+               ( peer_kill(robot),
+                 with_settings([typhon_fleet:sure_seconds=600],
+                               ( visitor(Robot, 600, A),
+                                 await_parked([A]),
+                                 wait_until(test_parking:alarm(A, _), 30) )),
+                 assertion(typhon_agents:agent_on(A, _)),
+                 redis_signal(Redis, kill),
+                 Redis = redis(_, Dir, _),
+                 directory_file_path(Dir, appendonlydir, Data),
+                 delete_directory_and_contents(Data),
+                 redis_restart(Redis),
+                 source_looks(A),
+                 gone([A]),
+                 peer_restart(robot),
+                 agent_send(A, last),
+                 agent_result(A, Result, 60) )).
 
 test(agent_waits_for_an_engine_that_does_not_answer,
      [ forall(member(Away-Back, [stop-cont, kill-start])),
@@ -611,9 +631,11 @@ test(home_knows_where_an_agent_is_parked,
 
 test(agent_whose_time_is_over_waits_for_its_source,
      Got == [host_unreachable(Robot)-Base]) :-
-    base([], [], 3, _, Robot,
+    base([], [], 600, Redis, Robot,
          ( peer_host(base, Base),
            peer_kill(base),
+           parked([A]),
+           time_is_over(Redis, A),
            wait_until(test_parking:returns(Base), 30),
            peer_restart(base),
            wait_until(peer_do(base, agents_here([_])), 30),
