@@ -34,17 +34,19 @@ or set back, and another process takes the journal over.
 in_lab(Redis, Goal) :-
     in_lab([], Redis, Goal).
 
+%   The thread that reads the setting ends before this does.
+
 in_lab(Options, Redis, Goal) :-
-    no_leaks(with_redis(Options, Redis, joined(Redis, Goal))).
+    with_settings([typhon_fleet:fenced_exit=false],
+                  no_leaks(with_redis(Options, Redis, joined(Redis, Goal)))).
 
 :- meta_predicate joined(+, 0).
 
 joined(Redis, Goal) :-
     redis_address(Redis, Address),
-    with_settings([typhon_fleet:fenced_exit=false],
-        setup_call_cleanup(fleet_join(lab, [redis(Address), lease(0.5)]),
-                           once(Goal),
-                           fleet_leave(lab))).
+    setup_call_cleanup(fleet_join(lab, [redis(Address), lease(0.5)]),
+                       once(Goal),
+                       fleet_leave(lab)).
 
 with_journal(Goal) :-
     with_store(redis('lab/a'), Goal).
