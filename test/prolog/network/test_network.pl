@@ -362,7 +362,7 @@ freeze(Network) :-
     pids(Network, [_, Pid|_]),
     process_kill(Pid, stop).
 
-test(hanging_process_is_killed_soon, true(Seconds < 10)) :-
+test(hanging_process_is_killed_soon, true(soon(Seconds, 10))) :-
     quiet(with_network(ring(4), [processes(4)], Network, [A,B|_],
         ( agent_create(clauses([ (:- agent(busy, [])),
                                  ( main :- move(B), move(A), main ) ]),

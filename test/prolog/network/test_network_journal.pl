@@ -219,7 +219,7 @@ ends_last([A, B|_]) :-
                                      system:sleep(1) )), _, [detached(true)])).
 
 test(network_with_a_hanging_and_a_dead_process_stops_soon,
-     true(Seconds < 12)) :-
+     true(soon(Seconds, 12))) :-
     quiet(with_tmp_dir(Dir,
         ( network(Dir, mesh(4), [processes(4)], Network, Hosts,
               ( born(patient, Hosts, 30, Agents),

@@ -354,7 +354,7 @@ test(endless_findall_exceeds_a_quota,
 %   An agent that catches the interrupt cannot continue by any goal.
 
 test(caught_interrupt_ends_the_agent_at_once, [ forall(stays(Clauses)),
-                                                true(Seconds < 3) ]) :-
+                                                true(soon(Seconds, 3)) ]) :-
     quota_of(seconds, Quotas),
     get_time(T0),
     on_quota(Quotas, Clauses, raised(error(resource_error(seconds), _))),
