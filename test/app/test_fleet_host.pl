@@ -65,7 +65,8 @@ ended(Pid) :-
 as_member(Redis, Goal) :-
     redis_address(Redis, Address),
     password(Password),
-    setup_call_cleanup(fleet_join(lab, [redis(Address), password(Password)]),
+    setup_call_cleanup(fleet_join(lab, [ redis(Address), password(Password),
+                                         lease(60) ]),
                        once(Goal),
                        fleet_leave(lab)).
 
@@ -92,7 +93,7 @@ test(host_is_known_by_its_tags_until_it_stops, true(Status == exit(0))) :-
             ( engine_options(Redis, File, Options0),
               hosting(['--tags=robot,camera'|Options0], Host,
                       forall(member(Tag, [robot, camera]),
-                             ( up(Tag, Hosts), assertion(Hosts == [Host]) )),
+                             wait_until(up(Tag, [Host]), 30)),
                       Status),
               wait_until(up(robot, []), 20) )))).
 test(agents_go_elsewhere_when_the_host_gets_a_signal,

@@ -20,19 +20,24 @@
 
 password('a secret word').
 
-:- meta_predicate in_fleet(0).
+:- meta_predicate
+    in_fleet(0),
+    in_fleet(+, 0).
 
 in_fleet(Goal) :-
+    in_fleet(60, Goal).
+
+in_fleet(Lease, Goal) :-
     password(Password),
     no_leaks(with_redis(['--requirepass', Password], Redis,
-                        joined(Redis, Password, Goal))).
+                        joined(Redis, Password, Lease, Goal))).
 
-:- meta_predicate joined(+, +, 0).
+:- meta_predicate joined(+, +, +, 0).
 
-joined(Redis, Password, Goal) :-
+joined(Redis, Password, Lease, Goal) :-
     redis_address(Redis, Address),
     setup_call_cleanup(
-        fleet_join(lab, [redis(Address), password(Password), lease(1)]),
+        fleet_join(lab, [redis(Address), password(Password), lease(Lease)]),
         once(Goal),
         fleet_leave(lab)).
 
@@ -80,7 +85,7 @@ test(killed_process_is_a_member_again) :-
               wait_until(all_up(Hosts), 20) )),
         _)).
 test(agent_outlives_its_process_by_a_journal_in_the_engine, N == 7) :-
-    in_fleet(capturing(
+    in_fleet(1, capturing(
         with_network(ring(2), [ fleet(lab), processes(2), restart(true),
                                 journal(redis('lab/net')) ],
                      Network, [_,Host],
