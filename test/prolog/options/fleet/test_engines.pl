@@ -84,7 +84,7 @@ with_tls_in(Dir, Address, Goal) :-
 test(members_with_certificates_meet, Names == [alpha,beta]) :-
     with_tls(Dir, Address,
              ( keys(Dir, member, Keys),
-               Joins = [redis(Address), tls(true)|Keys],
+               Joins = [redis(Address), tls(true), lease(60)|Keys],
                in_fleet(Joins,
                         with_peers([beta-[ setup(fleet_join(lab, Joins)),
                                            host([ fleet(lab),
@@ -195,8 +195,9 @@ command_of_script(Command) :-
 
 test(rights_of_the_document_suffice, Names == [beta]) :-
     with_user(Joins,
-              in_fleet([lease(2), recover(true), report(0.2)|Joins],
-                       with_peers([beta-[ setup(fleet_join(lab, Joins)),
+              in_fleet([lease(60), recover(true), report(0.2)|Joins],
+                       with_peers([beta-[ setup(fleet_join(lab,
+                                                           [lease(60)|Joins])),
                                           host([ fleet(lab), tags([x]),
                                                  journal(redis('lab/b')) ]) ]],
                                   all_done(Names)))).
@@ -430,12 +431,12 @@ test(member_without_the_engine_is_away_and_hops_go_on, Outcome == done) :-
                proxy_release(Proxy, down),
                up([alpha,beta]) )).
 
-test(connections_that_break_do_not_matter, Names == [alpha,beta]) :-
+test(connections_that_break_do_not_matter) :-
     with_cut(Proxy,
              ( forall(between(1, 5, _),
                       ( proxy_cut(Proxy),
                         peer_do(beta, fleet_hosts(lab, _, [])) )),
-               hosts([state(up)], Names) )).
+               up([alpha,beta]) )).
 
 test(answer_that_is_cut_is_an_error_or_comes_again,
      [forall(member(Bytes, [1,5,20]))]) :-
