@@ -30,7 +30,8 @@ inherit its blocked signals, SIGINT for one.
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
 :- use_module(library(lists),
-              [ append/2, last/2, member/2, nth1/3, selectchk/3, sum_list/2 ]).
+              [ append/2, last/2, member/2, memberchk/2, nth1/3, selectchk/3,
+                sum_list/2 ]).
 :- use_module(library(main), [main/0]).
 :- use_module(library(pairs), [map_list_to_pairs/3, pairs_values/2]).
 :- use_module(library(process),
@@ -142,7 +143,8 @@ run_suites(Files0, Jobs0, Suites, By) :-
     run_step(Step, Files0, Jobs0, Suites, By).
 
 run_step(start, [File|Files], Jobs, Suites, By) :-
-    start_suite(File, By, Job),
+    free_place(Jobs, Place),
+    start_suite(File, By, Place, Job),
     run_suites(Files, [Job|Jobs], Suites, By).
 run_step(ended(Job, Status), Files, Jobs0, [Suite|Suites], By) :-
     selectchk(Job, Jobs0, Jobs),
@@ -257,10 +259,28 @@ exit_status(_, 1).
                 *           ONE SUITE          *
                 *******************************/
 
-%   job(File, Mark, Log, Results, Pid, Start)
+%   job(File, Mark, Log, Results, Pid, Start, Place): suites that run at the same
+%   time have places of their own, and so other ports.
 
-start_suite(File, by(Quick, Dir), job(File, Mark, Log, Results, Pid, Start)) :-
+free_place(Jobs, Place) :-
+    suites_at_a_time(_, Most),
+    between(1, Most, Place),
+    \+ memberchk(job(_, _, _, _, _, _, Place), Jobs),
+    !.
+
+ports(_, Ports) :-
+    getenv('TYPHON_PORTS', Ports),      % this is a suite itself
+    !.
+ports(Place, Ports) :-
+    suites_at_a_time(_, Most),
+    Count is 20000//Most,
+    First is 10000+(Place-1)*Count,
+    term_to_atom(First+Count, Ports).
+
+start_suite(File, by(Quick, Dir), Place,
+            job(File, Mark, Log, Results, Pid, Start, Place)) :-
     get_time(Start),
+    ports(Place, Ports),
     file_base_name(File, Base),
     suite_mark(Base, Mark),
     directory_file_path(Dir, Base, Log),
@@ -275,7 +295,7 @@ start_suite(File, by(Quick, Dir), job(File, Mark, Log, Results, Pid, Start)) :-
                         Runner, '--', File, Results
                       ], Out,
                       [ 'TYPHON_SUITE'=Mark, 'TYPHON_QUICK'=Quick,
-                        'TYPHON_COOKIE_FILE'=Cookie ],
+                        'TYPHON_COOKIE_FILE'=Cookie, 'TYPHON_PORTS'=Ports ],
                       Pid),
         close(Out)).
 
@@ -295,7 +315,7 @@ suite_process(Swipl, Args, Out, Environment, Pid) :-
 
 ended_job(Jobs, Job, Status) :-
     member(Job, Jobs),
-    Job = job(_, _, _, _, Pid, Start),
+    Job = job(_, _, _, _, Pid, Start, _),
     process_wait(Pid, Status0, [timeout(0)]),
     (   Status0 \== timeout
     ->  Status = Status0
@@ -308,7 +328,7 @@ ended_job(Jobs, Job, Status) :-
     ).
 
 end_suite(Job, Status, Suite) :-
-    Job = job(File, Mark, Log, Results, _, Start),
+    Job = job(File, Mark, Log, Results, _, Start, _),
     file_base_name(File, Base),
     suite_results(Results, Status, suite(Passed, Failed, Skipped, Problems0)),
     findall(Problem, late_problem(Status, Mark, Problem), Problems1),

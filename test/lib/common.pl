@@ -439,19 +439,27 @@ ended(Pid, Status) :-
 %   A port of the loopback interface that is free now, was not given out before,
 %   and that the system gives only when asked for it: it draws the
 %   ports of outgoing connections from a higher range. Processes that have drawn
-%   the same seed begin at different ports.
+%   the same seed begin at different ports, and test/run.pl gives each of the
+%   suites that run at the same time ports of its own.
 
 :- dynamic given/1.                     % Port: may be in use any time
 
 free_port(Port) :-
+    ports(First, Count),
     current_prolog_flag(pid, Pid),
     repeat,
-    random_between(0, 20000, Drawn),
-    Port is 10000 + (Drawn + 7919*Pid) mod 20001,
+    random_between(1, Count, Drawn),
+    Port is First + (Drawn + 7919*Pid) mod Count,
     \+ given(Port),
     catch(try_port(Port), error(socket_error(_, _), _), fail),
     !,
     assertz(given(Port)).
+
+ports(First, Count) :-
+    getenv('TYPHON_PORTS', Text),
+    !,
+    term_to_atom(First+Count, Text).
+ports(10000, 20000).
 
 try_port(Port) :-
     tcp_socket(Socket),
