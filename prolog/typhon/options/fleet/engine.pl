@@ -174,10 +174,13 @@ connects(Idle, Options) :-
     catch(thread_send_message(Idle, Result), error(existence_error(_, _), _),
           ( Result = connection(Late) -> disconnect(Late) ; true )).
 
+%   Without nodelay the last write of a command above 4 kB waits until the engine
+%   has acknowledged the others.
+
 connected(Options, C) :-
     address(Options, Address),
     include(is_tls, Options, Tls),
-    redis_connect(Address, C, [reconnect(false)|Tls]),
+    redis_connect(Address, C, [reconnect(false), nodelay(true)|Tls]),
     catch(greeted(C, Options), Ball, ( disconnect(C), throw(Ball) )).
 
 is_tls(Option) :-
