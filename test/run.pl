@@ -26,6 +26,7 @@ inherit its blocked signals, SIGINT for one.
 :- use_module('lib/slowness', [measure_slowness/0, patience/2]).
 :- use_module('lib/suites',
               [all_suites/1, left_out_suites/2, suite_name/2, suite_named/2]).
+:- use_module('lib/touched', [suite_times/1]).
 :- use_module(library(apply), [exclude/3, foldl/4, maplist/3]).
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
@@ -48,8 +49,8 @@ inherit its blocked signals, SIGINT for one.
 %   Many suites mostly wait: so many run at a time, and more if processors are
 %   idle.
 
-suites_at_a_time(3, 7).
-idle_share(0.35).                       % of the time of all processors
+suites_at_a_time(3, 8).
+idle_share(0.15).                       % of the time of all processors
 
 %   In seconds, more on a slow machine; `make fuzz-programs` takes longer.
 
@@ -59,14 +60,6 @@ suite_deadline(Seconds) :-
     !.
 suite_deadline(Seconds) :-
     patience(200, Seconds).
-
-%   Long suites begin early, so that all end at about the same time.
-
-longest([ chaos, shell, user_program, scripted, faults, network_journal,
-          lasting, wire, doc, hop, sync_network, auction_network, cluster,
-          network, study_work, pack, robots, boxes_arena, ring,
-          learning_network, repeatable, agent, scheduler, letters, app, site,
-          page, applications, make ]).
 
 %   These suites check how the library is loaded, or the options of swipl, or
 %   start attackers that know only the wire protocol.
@@ -89,9 +82,7 @@ main(Argv) :-
     arguments(Argv, Names, []),
     left_out_suites(Names, LeftOut),
     suite_files(Names, Files0),
-    map_list_to_pairs(place, Files0, Pairs0),
-    keysort(Pairs0, Pairs),
-    pairs_values(Pairs, Files),
+    longest_first(Files0, Files),
     at_halt(kill_all_left_behind),
     on_signal(term, _, terminated),
     measure_slowness,
@@ -220,15 +211,17 @@ named_suites(Name, Files) :-
     ;   true
     ).
 
-%   place(+File, -Place): its position in the order of starting.
+%   longest_first(+Files0, -Files): then all end at about the same time.
 
-place(File, Place) :-
-    suite_name(File, Name),
-    longest(Names),
-    (   nth1(Number, Names, Name)
-    ->  Place = Number
-    ;   Place = later                   % which is after all numbers
-    ).
+longest_first(Files0, Files) :-
+    suite_times(Times),
+    map_list_to_pairs(seconds(Times), Files0, Pairs0),
+    sort(1, @>=, Pairs0, Pairs),
+    pairs_values(Pairs, Files).
+
+seconds(Times, File, Seconds) :-
+    project_file(Suite, File),
+    memberchk(time(Suite, _, Seconds), Times).
 
 add_suite(suite(_, P1, Failures, Skipped), sum(P0, F0, S0), sum(P, F, S)) :-
     length(Failures, F1),

@@ -36,11 +36,24 @@ suite_times(Times) :-
             ( suite(Suite),
               (   memberchk(suite(Suite, Processor, Seconds), Terms)
               ->  true
-              ;   guess(Processor, Seconds)
+              ;   guess(Suite, Processor, Seconds)
               ) ),
             Times).
 
-guess(4, 10).
+guess(Suite, Processor, Seconds) :-
+    suite_name(Suite, Name),
+    long(Seconds, Names),
+    memberchk(Name, Names),
+    !,
+    Processor is Seconds/2.
+guess(_, 2, 5).
+
+long(80, [chaos, shell, scripted, cells, parking, engines]).
+long(40, [ doc, page, lasting, quick, network_journal, user_program, cell_floods,
+           members, takeover, fleet_journal, study_work, mqtt, pack ]).
+long(25, [ cell_policy, allocation_network, wire, cell_frames, app, network, make,
+           page_server, hop, applications, postgresql, faults, parts, robots,
+           warehouse, cluster, sync_network, site, cell_outcomes, gate, work ]).
 
 suite(Suite) :-
     all_suites(Paths),
