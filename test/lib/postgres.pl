@@ -4,6 +4,7 @@
             postgres_crash/0,
             postgres_restart/0,
             postgres_url/2,             % +Schema, -Url
+            postgres_cut/1,             % +Schema
             with_postgres_relay/3,      % +Schema, -Url, :Goal
             postgres_relay/1            % +Order
           ]).
@@ -87,6 +88,19 @@ postgres_url(Schema, Url) :-
     format(atom(Url), 'postgresql://typhon@/postgres?host=~w&schema=~w',
            [Dir, Schema]).
 
+%!  postgres_cut(+Schema) is det.
+%
+%   The server ends all connections with the journal.
+
+postgres_cut(Schema) :-
+    running(Dir, _, _),
+    format(atom(Sql),
+           'select pg_terminate_backend(pid) from pg_locks \c
+            where locktype=\'advisory\' and \c
+            objid::bigint=(hashtext(\'~w\')::bigint & 4294967295)',
+           [Schema]),
+    run(psql, ['-q', '-h', Dir, '-U', typhon, '-c', Sql, postgres]).
+
                 /*******************************
                 *            RELAY             *
                 *******************************/
@@ -95,7 +109,8 @@ postgres_url(Schema, Url) :-
 %!  postgres_relay(+Order) is det.
 %
 %   Calls Goal once while the schema is reachable at Url, too, on a simulated
-%   machine that can `vanish` and `return`: these are Orders.
+%   machine that can `vanish` and `return`, or whose connections `break`:
+%   these are Orders.
 
 with_postgres_relay(Schema, Url, Goal) :-
     running(Dir, _, _),

@@ -35,7 +35,7 @@ vanishing_stop(relay(Pid, In, Out)) :-
 
 %!  vanishing_order(+Relay, +Order) is det.
 %
-%   Its machine does `vanish` or `return`.
+%   Its machine does `vanish` or `return`, or its connections `break`.
 
 vanishing_order(relay(_, In, Out), Order) :-
     format(In, '~w~n', [Order]),

@@ -8,11 +8,13 @@ Each line of its standard input is carried out and answered with `done`:
 
     vanish   no packet is taken any more, none is acknowledged; what the
              server has heard ends
-    return   new connections are accepted again
+    break    clients find their connections closed, the server does not
+    return   new connections are accepted again; the server finds those closed
 
 Ends with its standard input. A stopped process would not do: the kernel
 acknowledges in its place."""
 
+import contextlib
 import ctypes
 import selectors
 import socket
@@ -35,6 +37,7 @@ class Relay:
         self.other = {}                     # of each socket, the other end
         self.deaf = []                      # kept open: a closed one would
                                             # be answered for
+        self.broken = []                    # ends of the server
         self.door = socket.create_server(('127.0.0.1', 0))
         self.select = selectors.DefaultSelector()
         self.select.register(self.door, selectors.EVENT_READ, self.enter)
@@ -73,7 +76,8 @@ class Relay:
         line = stdin.readline()
         if not line:
             sys.exit()
-        {'vanish': self.vanish, 'return': self.be_back}[line.strip()]()
+        {'vanish': self.vanish, 'break': self.breaks,
+         'return': self.be_back}[line.strip()]()
         print('done', flush=True)
 
     def vanish(self):
@@ -87,8 +91,21 @@ class Relay:
                 self.deaf.append(sock)
         self.other.clear()
 
+    def breaks(self):
+        for sock in list(self.other):
+            self.forget(sock)
+            if sock.family == socket.AF_UNIX:
+                self.broken.append(sock)
+            else:
+                sock.close()
+        self.other.clear()
+
     def be_back(self):
-        self.door.setsockopt(socket.SOL_SOCKET, DETACH_FILTER, 0)
+        for sock in self.broken:
+            sock.close()
+        self.broken.clear()
+        with contextlib.suppress(OSError):          # it has no filter
+            self.door.setsockopt(socket.SOL_SOCKET, DETACH_FILTER, 0)
 
 
 Relay(sys.argv[1]).run()

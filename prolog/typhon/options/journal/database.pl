@@ -7,6 +7,7 @@
             database_tables/2,          % +Base, +Connection
             database_stamp/3,           % +Base, +Connection, -Stamp
             database_same/4,            % +Base, +Sync, +Stamp, +Connection
+            database_unopened/2,        % +Base, +Stamp
             database_forgets/4,         % +Base, +Sync, +Connection, -Seconds
             database_wrong/3,           % +Base, +Connection, -Why
             database_record/2,          % +Base, -Text
@@ -39,6 +40,7 @@ at a URL, see typhon_postgresql; higher layers do not know which.
     database_tables/2,
     database_stamp/3,
     database_same/4,
+    database_unopened/2,
     database_forgets/4,
     database_wrong/3,
     database_record/2,
@@ -101,9 +103,11 @@ database_part(Dir0, P, Part) :-
 
 %!  database_stamp(+Base, +Connection, -Stamp) is det.
 %!  database_same(+Base, +Sync, +Stamp, +Connection) is semidet.
+%!  database_unopened(+Base, +Stamp) is semidet.
 %
 %   Stamp identifies the last process that opened the journal.  database_same/4
-%   checks on a new Connection that no other process has opened it since.
+%   checks on a new Connection that no other process has opened it since;
+%   database_unopened/2 checks that none had when its lock could not be had.
 
 %!  database_forgets(+Base, +Sync, +Connection, -Seconds) is semidet.
 %

@@ -34,6 +34,7 @@ environment applies, such as PGPASSWORD, or the defaults of the server.
     typhon_database:database_tables/2,
     typhon_database:database_stamp/3,
     typhon_database:database_same/4,
+    typhon_database:database_unopened/2,
     typhon_database:database_forgets/4,
     typhon_database:database_record/2,
     typhon_database:database_record_put/2,
@@ -270,16 +271,21 @@ typhon_database:database_tables(postgresql(_), Connection) :-
 
 %   Stamp counts how often the journal was opened.
 
-typhon_database:database_stamp(postgresql(_), Connection, Stamp) :-
+typhon_database:database_stamp(postgresql(Server), Connection, Stamp) :-
     sql_do(Connection, 'update about set opened=opened+1'),
-    stamp(Connection, Stamp).
+    stamp(Server, Connection, Stamp).
 
-typhon_database:database_same(postgresql(_), Sync, Stamp, Connection) :-
-    stamp(Connection, Stamp),
+typhon_database:database_same(postgresql(Server), Sync, Stamp, Connection) :-
+    stamp(Server, Connection, Stamp),
     sync(Sync, Connection).
 
-stamp(Connection, Stamp) :-
-    sql_row(Connection, 'select opened from about', row(Stamp0), [integer]),
+typhon_database:database_unopened(postgresql(Server), Stamp) :-
+    Server = server(_, Driver),
+    connected(Driver, Connection, stamp(Server, Connection, Stamp)).
+
+stamp(server(Schema, _), Connection, Stamp) :-
+    format(atom(Sql), 'select opened from ~w.about', [Schema]),
+    sql_row(Connection, Sql, row(Stamp0), [integer]),
     !,
     Stamp = Stamp0.
 

@@ -6,7 +6,8 @@
                 database_found/1, database_lock/3, database_part/3,
                 database_record/2, database_record_drop/1,
                 database_record_put/2, database_same/4, database_stamp/3,
-                database_tables/2, database_wrong/3, in_terms_of/3 ]).
+                database_tables/2, database_unopened/2, database_wrong/3,
+                in_terms_of/3 ]).
 :- use_module(item_format,
               [bytes_sum/2, format_current/2, format_must_be/3]).
 :- use_module(recent,
@@ -149,7 +150,9 @@ commit_all(Base, Place, Changes) :-
 
 connect_again(Place) :-
     opened(Old, Base, Sync, Stamp),
-    in_terms_of(Place, Base, database_connect(Base, 0, New, _)),
+    catch(in_terms_of(Place, Base, database_connect(Base, 0, New, _)),
+          error(permission_error(open, journal, Place), Context0),
+          in_terms_of(Place, Base, locked(Base, Stamp, Place, Context0))),
     catch(in_terms_of(Place, Base, same(Base, Sync, Stamp, Place, New)),
           error(Formal, Context),
           ( sql_disconnect(New), throw(error(Formal, Context)) )),
@@ -159,6 +162,15 @@ connect_again(Place) :-
     assertz(opened(New, Base, Sync, Stamp)),
     sql_open(New),
     recent_doubtful.
+
+%   The lock may be that of the former connection, which the server has not yet
+%   found broken.
+
+locked(Base, Stamp, Place, Context) :-
+    (   database_unopened(Base, Stamp)
+    ->  throw(error(journal_unreachable(Place, 'it is locked'), _))
+    ;   throw(error(permission_error(open, journal, Place), Context))
+    ).
 
 same(Base, Sync, Stamp, Place, Connection) :-
     (   database_same(Base, Sync, Stamp, Connection)

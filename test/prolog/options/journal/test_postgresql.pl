@@ -92,7 +92,7 @@ test(synchronous_commit_is_optional) :-
 test(broken_connection_is_restored) :-
     with_schema(breaks,
                ( commit([a-k-0-first]),
-                 cut(breaks),
+                 postgres_cut(breaks),
                  commit([a-k-0-second, a-l-0-third]),
                  items(a, [k-0-second, l-0-third]) )).
 test(commit_lost_by_the_server_is_repeated) :-
@@ -126,11 +126,32 @@ test(journal_taken_over_by_another_process_is_refused) :-
     catch(with_schema(passed_on,
                      ( commit([a-k-0-first]),
                        sql('update about set opened=opened+1'),
-                       cut(passed_on),
+                       postgres_cut(passed_on),
                        commit([a-k-0-second]) )),
           error(Formal, _), true),
     Formal = permission_error(open, journal, _),
     with_schema(passed_on, items(a, [k-0-first])).
+
+%   The server still has the former connection, and its lock.
+
+test(own_former_connection_is_no_other_process) :-
+    with_postgres_relay(former, Url,
+        with_store(Url,
+                   ( commit([a-k-0-first]),
+                     postgres_relay(break),
+                     unreachable(commit([a-k-0-second])),
+                     postgres_relay(return),
+                     wait_until(plunit_postgresql:commits(a-k-0-second), 20),
+                     items(a, [k-0-second]) ))).
+
+commits(Spec) :-
+    catch(( commit([Spec]), Formal = none ), error(Formal, _), true),
+    (   Formal == none
+    ->  true
+    ;   assertion(Formal = journal_unreachable(_, _)),
+        fail
+    ).
+
 test(agent_survives_a_killed_process) :-
     postgres_url(alpha, Url),
     agent_survives(backend(true, Url)).
@@ -177,21 +198,6 @@ second_time(A, N) :-
 user:message_hook(typhon(Message), _, _) :-
     memberchk(Message, [node_back(_, _), node_down(_, _, _, _, _)]),
     assertz(plunit_postgresql:heard(Message)).
-
-%   The server ends all connections with the journal.
-
-cut(Schema) :-
-    postgres_url(other, Url),
-    typhon_database:database(Url, _, postgresql(server(_, Driver))),
-    setup_call_cleanup(
-        typhon_sql:sql_connect(Driver, C),
-        ( format(atom(Sql),
-                 'select pg_terminate_backend(pid) from pg_locks \c
-                  where locktype=\'advisory\' and \c
-                  objid::bigint=(hashtext(\'~w\')::bigint & 4294967295)',
-                 [Schema]),
-          typhon_sql:sql_do(C, Sql) ),
-        typhon_sql:sql_disconnect(C)).
 
 :- meta_predicate goes_on(+, 0, 0).
 
