@@ -147,9 +147,9 @@ wake(How) :-
     (   get_flag(typhon_journal_awake, Awake),
         Awake >= Urgency
     ->  true
-    ;   set_flag(typhon_journal_awake, Urgency),
-        ignore(( queue(_, Committer, _),        % fails after the end
-                 server_cast(Committer, How) ))
+    ;   sig_atomic(( set_flag(typhon_journal_awake, Urgency),
+                     ignore(( queue(_, Committer, _),   % fails after the end
+                              server_cast(Committer, How) )) ))
     ).
 
 urgency(idle, 1).
@@ -177,11 +177,17 @@ user:message_hook(Message, _, _) :-
 
 %!  commit_queue is det.
 %
-%   Commit now, and return when it is done, or when the last commit is over.
+%   Commit now, and return when it is done, or when the last commit is over.  If
+%   it fails the committer tries again.
 %
 %   @error resource_error(journal_space)
 
 commit_queue :-
+    catch(commit_waiting, error(Formal, Context),
+          ( wake(now),
+            throw(error(Formal, Context)) )).
+
+commit_waiting :-
     sig_atomic(( with_mutex(typhon_commit, commit_open),
                  commit_if_wanted )).
 
@@ -323,7 +329,7 @@ commits(timeout, State, Next) :-
 
 commit_now(State, Next) :-
     set_flag(typhon_journal_awake, 0),
-    catch(( commit_queue,
+    catch(( commit_waiting,
             Next = State ),
           error(Formal, Context),
           not_committed(error(Formal, Context), State, Next)).
