@@ -195,6 +195,19 @@ held(thread(T, S, G)) :-
     ).
 held(queue(Q, N)) :-
     message_queue_property(Q, size(N)), N > 0.
+held(flag(Flag, Value)) :-
+    member(Flag, [typhon_journal_awake, typhon_journal_wanted]),
+    get_flag(Flag, Value).
+held(mutex(Mutex, Status)) :-
+    member(Mutex, [typhon_commit, typhon_entries]),
+    catch(mutex_property(Mutex, status(Status)), error(_, _), fail).
+held(engine(Answer)) :-
+    current_predicate(typhon_engine:engine/3),
+    catch(typhon_engine:engine(lab, ping, Answer), error(Answer, _), true).
+held(signalled(T)) :-
+    thread_property(T, alias(Alias)),
+    sub_atom(Alias, _, _, _, journal),
+    catch(thread_signal(T, backtrace(30)), error(_, _), fail).
 held(alarm(A)) :-
     current_predicate(typhon_scheduler:F/N),
     functor(A, F, N),
@@ -204,8 +217,10 @@ held(fact(M:A)) :-
     member(M, [ typhon_connection_manager, typhon_session, typhon_peer_cache,
                 typhon_hop_ids, typhon_transfer, typhon_arrival,
                 typhon_whereabouts, typhon_news, typhon_window,
-                typhon_committing, typhon_connection, typhon_reader ]),
+                typhon_committing, typhon_connection, typhon_reader,
+                typhon_engine ]),
     current_predicate(M:F/N),
+    F \== text,                        % of scripts
     functor(A, F, N),
     predicate_property(M:A, dynamic),
     clause(M:A, true).

@@ -235,7 +235,7 @@ faults_begin(Options) :-
     ->  true
     ;   option(faults(Faults), Options,
                [kill, kill, kill_all, stop, cut, full]),
-        thread_create(make_faults(Seconds, Faults), Thread),
+        thread_create(causes_faults(Seconds, Faults), Thread),
         assertz(fault_thread(Thread))
     ).
 
@@ -272,6 +272,16 @@ tell_all(Orders) :-
                  assertz(orders(Orders)),
                  forall(( child(_, _, In), member(Order, Orders) ),
                         send_order(In, Order)) )).
+
+%   If the thread ended by an error an engine might stay killed.
+
+causes_faults(Seconds, Faults) :-
+    catch(make_faults(Seconds, Faults), Ball, true),
+    (   var(Ball)
+    ->  true
+    ;   print_message(error, Ball),
+        count(no_more_faults)
+    ).
 
 make_faults(Seconds, Faults) :-
     Longest is 2*Seconds,
