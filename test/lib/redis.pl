@@ -100,9 +100,13 @@ redis_restart(redis(Port, Dir, Options)) :-
     directory_file_path(Dir, 'redis.log', Log),
     launch(Port, ['--logfile', Log|Args]).
 
+%   A process that is not detached gets SIGTERM when the thread that started it
+%   ends.
+
 launch(Port, Args) :-
     process_create(path('redis-server'), Args,
-                   [stdin(null), stdout(null), stderr(null), process(Pid)]),
+                   [ stdin(null), stdout(null), stderr(null), process(Pid),
+                     detached(true) ]),
     assertz(running(Port, Pid)),
     wait_until(listens(Port), 10).
 
