@@ -16,7 +16,7 @@ This is the interface of the layer: higher layers import from here.
               host_passage/6, host_passes/2, host_plain_departure/2, host_put/2,
               host_resolve/2, host_unlink/2 ]).
 :- reexport('host/events').
-:- reexport(host/host_parts, [amended/5, parts/3, parts_call/3, parts_load/1]).
+:- reexport(host/host_parts, [ amended/5, hosts_apart/2, parts/3, parts_call/3, parts_load/1 ]).
 :- reexport(host/place,
             [ place_deliver/3, place_host/2, place_offer/2, place_service/2,
               place_undeliver/2, tuple_leave/2, tuple_leave/3,

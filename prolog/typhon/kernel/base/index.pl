@@ -46,7 +46,7 @@ joins(host_option,'options/journal',[journal,sync]).
 joins(host_option,'options/quotas',[quota]).
 joins(host_option,'options/tls',[tls]).
 joins(host_option,'options/trail',[trail]).
-joins(host_option,'options/virtual',[clock]).
+joins(host_option,'options/virtual',[away,clock]).
 joins(journal,'options/fleet',[redis]).
 joins(journal,'options/journal',[postgresql,text]).
 joins(keys,'options/identity',[any]).
@@ -120,7 +120,7 @@ files('options/supervision',['options/supervision/failed_processes','options/sup
 files('options/tls',['options/tls/secure']).
 files('options/trace',['options/trace/spying','options/trace/stepping','options/trace/tracing']).
 files('options/trail',['options/trail/trail','options/trail/trail_verified']).
-files('options/virtual',['options/virtual']).
+files('options/virtual',['options/virtual','options/virtual/away']).
 files('options/watch',['options/watch/metrics','options/watch/watch_receiver','options/watch/watch_senders','options/watch/watched_hosts']).
 files(tools,['tools/inventory']).
 files('tools/administration',['tools/administration/change','tools/administration/host_questions','tools/administration/properties','tools/administration/restore']).

@@ -1,5 +1,6 @@
 :- module(typhon_host_parts,
           [ parts/3,                    % ?Phase, ?Host, ?Closures
+            hosts_apart/2,              % +Host1, +Host2
             parts_call/3,               % +Phase, +Host, +Args
             amended/5,                  % +Phase, +Host, +About, +Term0, -Term
             parts_load/1,               % +Options
@@ -51,6 +52,9 @@ looks up one list of closures, and a host without options has none.
   | security      | Host, Peer, Proof, What      | see security_event/3        |
   | payload       | From, Payload, Host, Reason  | a payload is refused, see   |
   |               |                              | typhon_payloads             |
+  | away          | (true)                       | no other host of this       |
+  |               |                              | process reaches Host, nor   |
+  |               |                              | Host any other              |
   | new_program   | Host, Id, Hash-Sent          | Id gets another program,    |
   |               |                              | sent as in code_receive/2;  |
   |               |                              | an error forbids it         |
@@ -125,6 +129,17 @@ An option that has data for each host follows the life of the host by the hooks
 %   Host has these Closures in Phase.  This is a fact, so that a host without
 %   parts costs one lookup.  No list is empty.  While parts change there may be
 %   two facts, of which the first counts.
+
+%!  hosts_apart(+Host1, +Host2) is semidet.
+%
+%   Neither agents nor messages get from one of these hosts of this process to the
+%   other, because one of them is away.
+
+hosts_apart(Host1, Host2) :-
+    parts(away, _, _),                  % rarely
+    Host1 \== Host2,
+    ( parts(away, Host1, _) ; parts(away, Host2, _) ),
+    !.
 
 %!  parts_call(+Phase, +Host, +Args:list) is det.
 %

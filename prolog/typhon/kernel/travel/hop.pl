@@ -67,7 +67,7 @@ agent; answers and taken_over/4 in the threads of the endpoint, which never wait
 :- use_module('../base/error_text', [print_error/2]).
 :- use_module('../host',
               [ address_parts/3, amended/5, event/4, event_subscribed/1,
-                host/3, host_arrival/2, host_landing/4, host_departure/2,
+                hosts_apart/2, host/3, host_arrival/2, host_landing/4, host_departure/2,
                 host_moved/4, host_passage/6, host_passes/2,
                 host_plain_departure/2, host_time/2, parts/3, real_time/3,
                 schedule/2, schedule_here/3, schedule_stays/2,
@@ -111,6 +111,7 @@ agent; answers and taken_over/4 in the threads of the endpoint, which never wait
 %   @error move_refused(Address, Reason), of a host of this process
 
 hop(Id, local(Name), Hole, Goals, Since, Next) :-
+    \+ cut_off(Id, Name),
     !,
     hop_within(Id, Name, Hole, Goals, Since, Next).
 hop(Id, Where, Hole, Goals0, Since, stop) :-
@@ -165,9 +166,21 @@ freeze_and_send(Transfer, Held, Mail, Since, Image) :-
     ;   true                            % it was ended meanwhile
     ).
 
+cut_off(Id, Name) :-
+    agent_on(Id, Here),
+    hosts_apart(Here, Name).
+
 %   send(+Transfer, +Image): if the image cannot be sent, for example because
 %   its frame is too long, the agent stays.
 
+send(Transfer, _) :-
+    parts(away, _, _),
+    arg(1, Transfer, Id),
+    arg(2, Transfer, dest(_, Name, Endpoint)),
+    endpoint_address(Endpoint),
+    cut_off(Id, Name),
+    !,
+    transfer_unreachable(Transfer).
 send(Transfer, Image) :-
     catch(send_image(Transfer, Image),
           error(Formal, _),

@@ -55,8 +55,8 @@ for a connection; one_letter/2 is pure.
 :- use_module('../base/fifo', [fifo_empty/2]).
 :- use_module('../base/reports', [report/4, report/5]).
 :- use_module('../host',
-              [ address_parts/3, alarm_in/3, amended/5, parts/3,
-                scheduler_call/1 ]).
+              [ address_parts/3, alarm_in/3, amended/5, host/3, hosts_apart/2,
+                parts/3, scheduler_call/1 ]).
 :- use_module('../wire',
               [ endpoint_address/1, endpoint_gone/1, endpoint_peer/2,
                 endpoint_post/3, endpoint_post_up/3, mobile_term/1 ]).
@@ -283,6 +283,9 @@ messages_in(Letters, Messages) :-
 %   to(Endpoint, Letter) if a connection has to be made first, wait(Letter) if
 %   it is better to wait, or `nowhere`.
 
+way(Id, letter(Mail, _), nowhere) :-
+    cut_off(Id, Mail),
+    !.
 way(Id, letter(Mail, _), done) :-
     way_in(Id, Mail),
     !.
@@ -306,7 +309,12 @@ go(wait(Letter), Id, _, _) :-
     with_agent(Id, retry_if_waiting(wait(Letter), Id, done)).
 go(nowhere, Id, From, Message) :-
     new_letter(From, Message, letter(Mail, _)),
-    kept_or_error(existence_error(agent, Id), Id, Mail).
+    (   agent_on(Id, Host),
+        host(Host, Address, _)
+    ->  Formal = host_unreachable(Address)
+    ;   Formal = existence_error(agent, Id)
+    ),
+    kept_or_error(Formal, Id, Mail).
 
 %   kept_or_error(+Formal, +Id, +Mail) is det: in a thread that may wait, outside
 %   with_agent/2.  With a journal the hook runs in the unit of work in which the
@@ -350,6 +358,18 @@ one_letter(Letters, letter(Mail, Left)) :-
     max_list(Lefts, Left).
 
 letter_parts(letter(Mail, Left), Mail, Left).
+
+%   cut_off(+Id, +Mail) is semidet: the host of Id, or of a sender, is away.
+
+cut_off(Id, Mail) :-
+    parts(away, _, _),
+    agent_on(Id, Host),
+    member(mail(_, From, _), Mail),
+    (   agent_on(From, There)
+    ->  hosts_apart(There, Host)
+    ;   parts(away, Host, _)
+    ),
+    !.
 
 %   way_in(+Id, +Mail): put the part of Mail that Id, an agent of this process,
 %   accepts into its mailbox; what its mailbox has no space for becomes dead
@@ -872,6 +892,9 @@ send_connecting(nowhere, Id, Letter, Tries) :-
                      enqueue_changes )).
 send_connecting(_, _, _, _).
 
+step(Id, letter(Mail, _), nowhere) :-
+    cut_off(Id, Mail),
+    !.
 step(Id, letter(Mail, _), done) :-
     way_in(Id, Mail),
     !.
