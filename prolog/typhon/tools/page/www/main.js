@@ -1,115 +1,11 @@
-// The page: its views, the selection, and the connection to the server.
+// The page: its views, the selection, and the connection to the hosts.
 
+import { open } from './connection.js';
 import { button, element } from './dom.js';
 import { agentList, hostList } from './table.js';
 import { Announcer, Store } from './store.js';
 import { details } from './details.js';
 import { workMenu } from './work.js';
-
-const SILENCE = 16000;          // ms without a frame: the connection is lost
-const LONGEST = 8000;           // ms between attempts
-
-// The connection to the server. It is made again whenever it is lost; the page
-// keeps its contents meanwhile.
-class Connection {
-  // callbacks are snapshot(dict), events(list), and state('open' |
-  // 'lost' | 'refused').
-  constructor(callbacks) {
-    this.callbacks = callbacks;
-    this.wait = 300;
-    this.held = null;
-    this.open();
-    document.addEventListener('visibilitychange', () => {
-      if (!document.hidden && !this.socket) this.again(0);
-    });
-  }
-
-  open() {
-    clearTimeout(this.timer);
-    const address = new URL('feed', location.href);
-    address.protocol = address.protocol === 'https:' ? 'wss:' : 'ws:';
-    const socket = this.socket = new WebSocket(address);
-    socket.onmessage = ({ data }) => {
-      if (socket === this.socket) this.onFrame(JSON.parse(data));
-    };
-    socket.onopen = () => { this.refused = false; };
-    socket.onclose = () => {
-      if (socket === this.socket) this.lost();
-    };
-    this.listen();
-  }
-
-  listen() {
-    clearTimeout(this.silence);
-    this.silence = setTimeout(() => {
-      const socket = this.socket;
-      this.lost();
-      socket?.close();
-    }, SILENCE);
-  }
-
-  onFrame(frame) {
-    this.listen();
-    if (frame.snapshot) {
-      this.wait = 300;
-      this.held = null;
-      this.callbacks.snapshot(frame.snapshot);
-      this.callbacks.state('open');
-    } else if (frame.events) {
-      if (this.held) this.held.push(frame.events);
-      else this.callbacks.events(frame.events);
-    } else if (frame.error) {
-      this.refused = true;
-      this.callbacks.state('refused', frame.error);
-    }
-  }
-
-  lost() {
-    clearTimeout(this.silence);
-    this.socket = null;
-    if (!this.refused) this.callbacks.state('lost'); // else state() has the reason
-    this.again(this.wait);
-    this.wait = Math.min(LONGEST, this.wait * 1.7);
-  }
-
-  again(wait) {
-    clearTimeout(this.timer);
-    this.timer = setTimeout(() => { if (!this.socket) this.open(); }, wait);
-  }
-
-  // The snapshot may or may not contain events that happen while the server
-  // makes it: so they are applied again afterwards.
-  async refresh() {
-    if (this.held || !this.socket) return;
-    this.held = [];
-    try {
-      const scene = await this.ask({ ask: 'survey' });
-      if (this.held) this.callbacks.snapshot(scene);
-    } finally {
-      const held = this.held || [];
-      this.held = null;
-      for (const events of held) this.callbacks.events(events);
-    }
-  }
-
-  // Returns the answer to a query or an order, or throws an error with the
-  // reason.
-  async ask(message) {
-    let response;
-    try {
-      response = await fetch('ask', { method: 'POST',
-        headers: { 'Content-Type': 'application/json' },
-        body: JSON.stringify(message) });
-    } catch {
-      throw new Error('The server of this page does not answer');
-    }
-    if (!response.ok)
-      throw new Error((await response.text()).trim() || `Status ${response.status}`);
-    const reply = await response.json();
-    if (reply.error !== undefined) throw new Error(reply.error);
-    return reply.answer;
-  }
-}
 
 // A view is a module with mount(element, store, app), or such a function. It is
 // loaded when it is shown for the first time.
@@ -262,7 +158,7 @@ function stateLine(app) {
 
 const count = (n, what) => `${n.toLocaleString('en')} ${what}${n === 1 ? '' : 's'}`;
 
-// -------------------------------------------------------------- the server
+// --------------------------------------------------------------- the hosts
 
 function connect(app) {
   const { store } = app;
@@ -274,7 +170,7 @@ function connect(app) {
     document.body.dataset.state = state;
     app.tell('state', state);
   };
-  app.connection = new Connection({
+  app.connection = open({
     state,
     snapshot(snapshot) {
       if (snapshot.read_only !== undefined) setReadOnly(app, snapshot.read_only);

@@ -342,6 +342,12 @@ export function editor(app) {
     text.scrollTop = Math.max(0, (line - 4) * 20);
   }
 
+  function write(content) {
+    text.value = app.draft = content;
+    draw();
+    check();
+  }
+
   async function check() {
     const now = ++round;
     try {
@@ -372,13 +378,10 @@ export function editor(app) {
   return {
     element: element('div', { class: 'editor' },
       element('div', { class: 'buttons' }, button('Open a file …', () =>
-        readFile('.pl,.pro,.prolog,text/plain', content => {
-          text.value = app.draft = content;
-          draw();
-          check();
-        }))),
+        readFile('.pl,.pro,.prolog,text/plain', write))),
       element('div', { class: 'code' }, numbers, text), advice),
     get value() { return text.value; },
+    set value(content) { write(content); },
     check,
   };
 }
