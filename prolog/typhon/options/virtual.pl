@@ -1,4 +1,7 @@
-:- module(typhon_virtual, []).
+:- module(typhon_virtual,
+          [ virtual_pace/1,             % +Pace
+            virtual_paced/1             % -Pace
+          ]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../kernel/base/monotonic', [wait_within/2]).
@@ -8,6 +11,7 @@
               [ virtual_alone/0, virtual_begin/0, virtual_doing/1,
                 virtual_end/0, virtual_loop/1, virtual_now/1,
                 virtual_state/1, virtual_steps/1 ]).
+:- use_module(virtual/virtual_pace, [pace/1]).
 
 /** <module> The runtime `virtual`: simulated time
 
@@ -161,6 +165,30 @@ ask_loop(Request, Reply, Seconds, Answer) :-
           wait_within(Seconds, thread_get_message(Reply, Answer))
         ),
         message_queue_destroy(Reply)).
+
+                /*******************************
+                *             PACE             *
+                *******************************/
+
+%!  virtual_pace(+Pace) is semidet.
+%!  virtual_paced(-Pace) is semidet.
+%
+%   Set the pace of virtual time: `paused`, `step`, rate(Speed), in virtual
+%   seconds per second, or `free`, the default; get it, except `free`.  After
+%   `step` no agent is ready; fails if one still is after ten seconds, if no
+%   caller waits, and if there is no virtual time.
+
+virtual_pace(Pace) :-
+    ask_loop(ask(pace(Pace, Reply)), Reply, 10, set).
+
+virtual_paced(Pace) :-
+    pace(Full),
+    (   Full = rate(Speed, _, _)
+    ->  Pace = rate(Speed)
+    ;   Full = rate(_)
+    ->  Pace = Full
+    ;   functor(Full, Pace, _)
+    ).
 
                 /*******************************
                 *            WAITING           *

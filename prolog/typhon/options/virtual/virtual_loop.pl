@@ -16,7 +16,9 @@
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/base/fifo', [fifo_empty/2]).
+:- use_module('../../kernel/base/monotonic', [wait_before/2]).
 :- use_module('../../kernel/host', [work_do/2]).
+:- use_module(virtual_pace, [pace/1, pace_deadline/4, pace_set/2]).
 
 /** <module> The thread of virtual time
 
@@ -31,6 +33,7 @@ The thread reads these messages from one queue:
   |                                 | `there` or `late`                     |
   | ask(cancel(Reply))              | the caller of wait(Reply, _, _) has   |
   |                                 | stopped waiting                       |
+  | ask(pace(Pace, Reply))          | set the pace, see typhon_virtual_pace |
   | ask(stop)                       | end the thread                        |
   | ask(hold(Reply))                | pause until held(let_go); Reply gets  |
   |                                 | `held`                                |
@@ -53,12 +56,13 @@ thread may read. The thread is no `server`: it selects messages by their form.
 
 %!  virtual_begin is det.
 %
-%   Set virtual time and the count of steps to zero.
+%   Set virtual time and the count of steps to zero; there is no pace.
 
 virtual_begin :-
     flag(typhon_virtual_now, _, 0.0),
     flag(typhon_virtual_steps, _, 0),
-    flag(typhon_virtual_ends, _, 0).
+    flag(typhon_virtual_ends, _, 0),
+    pace_set(free, none).
 
 %!  virtual_end is det.
 %
@@ -189,6 +193,11 @@ handle_request(restore(State, Reply), Waiting, Queue, _) :-
     restore_state(State, Queue, Alarms),
     ignore(send(Reply, done)),
     run(Waiting, Queue, Alarms).
+handle_request(pace(Pace, Reply), Waiting0, Queue, Alarms) :-
+    !,
+    pace_set(Pace, Reply),
+    notify_satisfied(Waiting0, Waiting),
+    run(Waiting, Queue, Alarms).
 handle_request(cancel(Reply), Waiting0, Queue, Alarms) :-
     exclude(is_of(Reply), Waiting0, Waiting),
     run(Waiting, Queue, Alarms).
@@ -288,9 +297,47 @@ requeue(Queue, Work) :-
     thread_send_message(Queue, do(Work)).
 
 %   advance(+Waiting, +Queue, +Alarms): the queue is empty, so time jumps to the
-%   next alarm or to the first end of a wait.
+%   next alarm or to the first end of a wait, when its pace allows that.
 
-advance(Waiting, Queue, alarms(Count, Heap)) :-
+advance(Waiting, Queue, alarms(Count, Heap0)) :-
+    pace(_),
+    !,
+    without_over(Heap0, Heap),
+    next_stamp(Waiting, Heap, Next),
+    virtual_now(Now),
+    (   pace_deadline(Next, Now, Reached, Deadline)
+    ->  set_time(Reached),
+        wait_for_message(Deadline, Waiting, Queue, alarms(Count, Heap))
+    ;   jump(Waiting, Queue, alarms(Count, Heap))
+    ).
+advance(Waiting, Queue, Alarms) :-
+    jump(Waiting, Queue, Alarms).
+
+wait_for_message(Deadline, Waiting, Queue, Alarms) :-
+    (   wait_before(Deadline, thread_get_message(Queue, Message))
+    ->  step(Message, 0, Waiting, Queue, Alarms)
+    ;   advance(Waiting, Queue, Alarms)
+    ).
+
+%   An obsolete alarm does nothing, so it is no step.
+
+without_over(Heap0, Heap) :-
+    min_of_heap(Heap0, Key, Alarm),
+    is_over(Key-Alarm),
+    !,
+    get_from_heap(Heap0, _, _, Heap1),
+    without_over(Heap1, Heap).
+without_over(Heap, Heap).
+
+next_stamp(Waiting, Heap, Next) :-
+    first_end(Waiting, End),
+    (   min_of_heap(Heap, at(Stamp, _), _),
+        before(Stamp, End)
+    ->  Next = Stamp
+    ;   Next = End
+    ).
+
+jump(Waiting, Queue, alarms(Count, Heap)) :-
     first_end(Waiting, End),
     (   min_of_heap(Heap, at(Stamp, _), _),
         before(Stamp, End)

@@ -1,5 +1,6 @@
 :- module(typhon_page_browser_orders,
-          [ order_run/2                 % +Message, -Answer
+          [ order_run/2,                % +Message, -Answer
+            orders_allowed/2            % +ReadOnly, -Orders
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(error),
@@ -21,6 +22,7 @@
                 read_text/3, saying/2, term_in/4, text_file/3, text_in/3 ]).
 :- use_module(overlays, [mechanism_file/2]).
 :- use_module(protocol, [name_text/2, text/2]).
+:- use_module(runs, [run_control/2]).
 
 /** <module> Orders of browsers, on a page that is not read-only
 
@@ -45,6 +47,8 @@ and of the operators of mechanisms.  Terms are sent as text.
   | network_start | `topology`, `options`                                   |
   | network_stop  | `network`                                               |
   | mechanism     | `mechanism`, `predicate`, `arguments`: `hosts` or texts |
+  | go, pause, step |                                                       |
+  | speed         | `speed`: of virtual time, see module `runs`             |
 
 An answer is _{done, said}: the result, and the printed messages.
 
@@ -70,6 +74,14 @@ order_run(Message, _) :-
     ->  throw(error(page_failed(What), _))
     ;   domain_error(page_order, What)
     ).
+
+%!  orders_allowed(+ReadOnly:boolean, -Orders:list(atom)) is det.
+%
+%   Orders are those that a browser may give: all, or none.
+
+orders_allowed(true, []).
+orders_allowed(false, Orders) :-
+    findall(Order, clause(run_order(Order, _, _), _), Orders).
 
 :- '$clausable'(run_order/3).
 
@@ -156,6 +168,15 @@ run_order(mechanism, Message, Results) :-
     name_in(predicate, Message, Name),
     get_dict(arguments, Message, Arguments),
     mechanism_run(Mechanism, Name, Arguments, Results).
+
+run_order(go, Message, "goes on") :-
+    run_control(go, Message).
+run_order(pause, Message, "paused") :-
+    run_control(pause, Message).
+run_order(step, Message, "stepped") :-
+    run_control(step, Message).
+run_order(speed, Message, "set") :-
+    run_control(speed, Message).
 
 option_in(Message, Option) :-
     host_in(Message, Option).

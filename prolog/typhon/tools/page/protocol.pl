@@ -23,7 +23,8 @@
 Over a WebSocket at `feed` the server sends events in JSON, at most twenty times
 a second; the browser sends nothing there.  The first message is
 
-    {"snapshot": {"time": T, "read_only": B, "hosts": [Host, ...],
+    {"snapshot": {"time": T, "read_only": B, "orders": [Name, ...],
+                  "hosts": [Host, ...],
                   "agents": [Agent, ...], "overlays": [Overlay, ...],
                   "world": B}}
 

@@ -25,6 +25,7 @@
                 scene_dict/3, text/2 ]).
 :- autoload(replay, [replay_of_text/3]).
 :- use_module(editor, [name_in/3, on_console/1, text_in/3]).
+:- use_module(runs, [run_dict/1]).
 :- use_module(sources, [sources_look/1, sources_show/1, sources_tree/1]).
 
 /** <module> Queries of browsers, and the answers
@@ -39,6 +40,7 @@
   | programs   |         | names of agent programs that are found        |
   | tree       |         | supervisors and the agents below them         |
   | world      |         | the picture of the world, SVG                 |
+  | run        |         | the state of virtual time, see module `runs`  |
   | replay     | `title`, `text` | the log of that text, see module `replay` |
 
 A query changes nothing, and leads only to hosts that the page shows.
@@ -93,6 +95,8 @@ answer(tree, _, Dicts) :-
     maplist(node_dict, Trees, Dicts).
 answer(world, _, Svg) :-
     world_picture(Svg).
+answer(run, _, Dict) :-
+    run_dict(Dict).
 answer(replay, Message, Dict) :-
     text_in(title, Message, Title),
     text_in(text, Message, Text),

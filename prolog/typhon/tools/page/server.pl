@@ -15,7 +15,7 @@
 :- use_module('../../bridges/common',
               [ client_becomes/1, http_before/2, http_head/4,
                 http_server_close/1, http_server_open/4, with_bytes/3 ]).
-:- use_module(browser_orders, [order_run/2]).
+:- use_module(browser_orders, [order_run/2, orders_allowed/2]).
 :- use_module(browsers, [browser_serve/2, browsers_start/0, browsers_stop/0]).
 :- use_module(editor,
               [ editor_start/0, editor_stop/0, on_console/1,
@@ -29,6 +29,7 @@
 :- use_module(queries,
               [ present_scene/1, query_answer/2, world_shown/0,
                 world_start/1, world_stop/0 ]).
+:- use_module(runs, [runs_stop/0]).
 :- use_module(sources, [sources_metrics/1, sources_start/1, sources_stop/0]).
 
 /** <module> The server of the page
@@ -107,6 +108,7 @@ stop :-
     ).
 
 stop_parts :-
+    runs_stop,
     sources_stop,
     times_stop,
     browsers_stop,
@@ -173,11 +175,12 @@ feed(WebSocket) :-
 
 first_frame(_{snapshot:Scene}) :-
     serving(_, _, ReadOnly),
+    orders_allowed(ReadOnly, Orders),
     on_console(present_scene(Seen)),
     overlays_shown(Overlays),
     ( world_shown -> World = true ; World = false ),
     Scene = Seen.put(_{ read_only:ReadOnly, overlays:Overlays,
-                        world:World }).
+                        orders:Orders, world:World }).
 
 send_file(File, Type) :-
     setup_call_cleanup(

@@ -185,6 +185,7 @@ test(read_only) :-
                                  "resume", "dispose", "save", "load", "link",
                                  "unlink", "host_start", "host_stop",
                                  "network_start", "network_stop", "mechanism",
+                                 "go", "pause", "step", "speed",
                                  "any other" ]),
                   fails(Base, _{do:What, text:"", agent:"a"}, ["permission"])),
            answer(Base, _{ask:"survey"}, _{hosts:[_,_], agents:[], time:_}) )).

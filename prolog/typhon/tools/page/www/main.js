@@ -4,6 +4,7 @@ import { open } from './connection.js';
 import { button, element } from './dom.js';
 import { agentList, hostList } from './table.js';
 import { Announcer, Store } from './store.js';
+import { controlBar, Run } from './controls.js';
 import { details } from './details.js';
 import { workMenu } from './work.js';
 
@@ -29,6 +30,7 @@ class App extends Announcer {
     this.store = store;
     this.prefs = rememberedPrefs();
     this.chosen = {};
+    this.orders = new Set();    // that this page allows
     this.more = new Map();      // agent -> data that only snapshots contain
     this.mounted = new Map();   // name -> element
     this.views = new Map();     // name -> what mount() returned
@@ -174,6 +176,7 @@ function connect(app) {
     state,
     snapshot(snapshot) {
       if (snapshot.read_only !== undefined) setReadOnly(app, snapshot.read_only);
+      if (snapshot.orders) app.orders = new Set(snapshot.orders);
       if (snapshot.world !== undefined) setWorld(app, snapshot.world);
       app.more = new Map(snapshot.agents.map(agent => [agent.id, agent]));
       store.applySnapshot(snapshot);
@@ -241,6 +244,15 @@ function keepFresh(app) {
   setTimeout(look, pause);
 }
 
+// The controls of virtual time, above all views.
+function control(app) {
+  const run = app.run = new Run({ ask: message => app.ask(message),
+    may: order => app.orders.has(order) },
+  () => !document.hidden && app.state === 'open');
+  run.on('error', text => app.note(text, 'error'));
+  $('run').append(controlBar(run));
+}
+
 const store = new Store();
 const app = new App(store);
 
@@ -253,5 +265,6 @@ details($('details'), store, app);
 stateLine(app);
 connect(app);
 keepFresh(app);
+control(app);
 app.show(VIEWS.some(([name]) => name === app.prefs.view) ? app.prefs.view : 'map');
 globalThis.typhon = { store, app };     // for the console of the browser
