@@ -18,8 +18,8 @@ This is the interface of the layer: higher layers import from here.
 :- reexport('host/events').
 :- reexport(host/host_parts, [ amended/5, hosts_apart/2, parts/3, parts_call/3, parts_load/1 ]).
 :- reexport(host/place,
-            [ place_deliver/3, place_host/2, place_offer/2, place_service/2,
-              place_undeliver/2, tuple_leave/2, tuple_leave/3,
+            [ place_deliver/3, place_host/2, place_offer/2, place_serve/2,
+              place_service/2, place_undeliver/2, tuple_leave/2, tuple_leave/3,
               tuple_leave_new/3, tuple_on/4, tuple_put/4, tuple_restored/4,
               tuple_sense/2, tuple_take/2 ]).
 :- reexport(host/time,

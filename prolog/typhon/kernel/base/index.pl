@@ -28,7 +28,8 @@ joins(durable,'options/concurrency',[turns]).
 joins(durable,'options/directory',[offer]).
 joins(durable,'options/fleet',[fleet_letter]).
 joins(durable,'options/identity',[birth]).
-joins(durable,'options/journal',[agent,letter,logged,out,seen,state,tuple]).
+joins(durable,'options/journal',[agent,asked,letter,logged,out,seen,state,tuple]).
+joins(durable,'options/people',[invitation,question]).
 joins(durable,'options/snapshot',[order,program,stands,stays]).
 joins(durable,'options/supervision',[monitor]).
 joins(environment,'options/tls',['TYPHON_TLS']).
@@ -43,6 +44,7 @@ joins(host_option,'options/guard',[policy]).
 joins(host_option,'options/host_log',[log]).
 joins(host_option,'options/identity',[authors]).
 joins(host_option,'options/journal',[journal,sync]).
+joins(host_option,'options/people',[people]).
 joins(host_option,'options/quotas',[quota]).
 joins(host_option,'options/tls',[tls]).
 joins(host_option,'options/trail',[trail]).
@@ -112,6 +114,7 @@ files('options/identity',['options/identity/authors','options/identity/birth','o
 files('options/journal',['options/journal/channel','options/journal/committing','options/journal/hop_ids','options/journal/journaled_agents','options/journal/journaled_tuples','options/journal/recovery','options/journal/sql_tables','options/journal/store','options/journal/units_of_work']).
 files('options/migration',['options/migration/pheromone','options/migration/strategy']).
 files('options/payloads',['options/payloads']).
+files('options/people',['options/people','options/people/invitations','options/people/person_questions']).
 files('options/quotas',['options/quotas','options/quotas/quota_agents','options/quotas/quota_enforcer','options/quotas/quota_table','options/quotas/usage']).
 files('options/remote',['options/remote']).
 files('options/single',['options/single']).
@@ -132,6 +135,7 @@ files('tools/source_view',['tools/source_view/clause_location']).
 %   File declares the setting Module:Name.
 
 part_setting(again_seconds,typhon_monitors,number,1,'Seconds until a lost request to the home of an agent is repeated','options/supervision/monitors').
+part_setting(answer_bytes,typhon_people_server,positive_integer,20000,'Bytes of a request of a person, at most','tools/page/people_server').
 part_setting(answer_seconds,typhon_processes,number,2,'Seconds of silence after which a stopping process is killed','network/processes').
 part_setting(atom_chars,typhon_guard_limits,positive_integer,1000,'Atoms that untrusted agents make have at most so many characters','options/guard/guard_limits').
 part_setting(ball_cells,typhon_guard_calls,positive_integer,10000,'Parts of a term that an untrusted agent throws, at most','options/guard/guard_calls').
@@ -139,12 +143,15 @@ part_setting(births,typhon_birth,positive_integer,20000,'Agents whose proofs of 
 part_setting(browsers,typhon_page_browsers,positive_integer,32,'Browsers that may be connected to a page at a time','tools/page/browsers').
 part_setting(cells,typhon_cells,positive_integer,16,'Processes for agents of untrusted owners, at most','options/cell/cells').
 part_setting(cells,typhon_offers,positive_integer,1000,'Cells of an offer, at most; eight characters of a text count as one','options/directory/offers').
+part_setting(cells,typhon_person_words,positive_integer,2000,'Cells of a question with its choices, at most; eight characters of a text count as one','options/people/person_words').
 part_setting(cells,typhon_pheromone,positive_integer,1000,'Cells of the problem of a pheromone, at most; eight characters of a text count as one','options/migration/pheromone').
 part_setting(certificates,typhon_keys,positive_integer,256,'Certificates whose holder is cached','options/keys').
 part_setting(channel_seconds,typhon_channel,number,300,'Seconds for which posts are kept for a process that has left, and is not known to keep a journal','options/journal/channel').
+part_setting(characters,typhon_person_questions,positive_integer,2000,'Characters of the answer of a person, at most','options/people/person_questions').
 part_setting(choice_seconds,typhon_fleet,number,0.5,'Seconds for which a list of hosts serves for choices by any(Tag)','options/fleet/tags').
 part_setting(clause_cells,typhon_guard_limits,positive_integer,200000,'Clauses that untrusted agents add have at most so many parts','options/guard/guard_limits').
-part_setting(connections,typhon_page_reception,positive_integer,64,'Clients of a page at a time','tools/page/server').
+part_setting(connections,typhon_page_reception,positive_integer,64,'Clients of a page at a time','tools/page/reception').
+part_setting(connections,typhon_people_server,positive_integer,256,'Clients of the page for people at a time','tools/page/people_server').
 part_setting(content_characters,typhon_host_log,positive_integer,200,'The text of longer messages is cut to this many characters','options/host_log').
 part_setting(delay,typhon_event_sender,number,0.05,'Seconds for which events gather before they are sent','options/watch/event_sender').
 part_setting(engine_pause,typhon_fleet,number,0.5,'Seconds for which an engine that is down is not asked again','options/fleet/engine').
@@ -156,7 +163,7 @@ part_setting(files,typhon_loaded,nonneg,64,'Programs remembered as they were rea
 part_setting(frame_events,typhon_page_browsers,positive_integer,2000,'Events in a text that a page sends','tools/page/browsers').
 part_setting(frame_seconds,typhon_page_browsers,number,0.05,'Seconds between two texts with events that a page sends','tools/page/browsers').
 part_setting(functors,typhon_cells,positive_integer,20000,'Functors that the cells of an owner may bring into the process','options/cell/cell_functors').
-part_setting(head_bytes,typhon_page_reception,positive_integer,16384,'Bytes of the head of a request, at most','tools/page/server').
+part_setting(head_bytes,typhon_page_reception,positive_integer,16384,'Bytes of the head of a request, at most','tools/page/reception').
 part_setting(heartbeat_seconds,typhon_page_browsers,number,5,'Seconds without events after which a page sends a heartbeat','tools/page/browsers').
 part_setting(hold_seconds,typhon_saving,number,30,'Seconds for a network to come to rest before it is saved','network/saving').
 part_setting(idle,typhon_cells,number,60,'Seconds after which a cell that no agent uses ends','options/cell/cells').
@@ -182,10 +189,11 @@ part_setting(pause,typhon_quota_enforcer,between(0.0,1.0),0.8,'Agents that run f
 part_setting(pheromones,typhon_pheromone,positive_integer,1000,'Pheromones that a host has at most','options/migration/pheromone').
 part_setting(python,typhon_helper_process,atom,'','The Python of helpers; \'\' for that of the system','bridges/helper/process').
 part_setting(python,typhon_nxt_link,atom,'','The Python of the helpers of bricks; \'\' for that of all helpers','bridges/nxt/link').
+part_setting(questions,typhon_person_questions,positive_integer,200,'Questions that wait for a person, at most','options/people/person_questions').
 part_setting(queue,typhon_subscribers,positive_integer,1000,'Messages of bridges that may wait for an agent','bridges/common/subscribers').
 part_setting(renew_seconds,typhon_page_sources,number,3,'Seconds between searches of a page for new hosts','tools/page/sources').
 part_setting(request_bytes,typhon_page_server,positive_integer,4000000,'Bytes of a request to a page, at most','tools/page/server').
-part_setting(request_seconds,typhon_page_reception,positive_integer,20,'Seconds for the head of a request, and for its body','tools/page/server').
+part_setting(request_seconds,typhon_page_reception,positive_integer,20,'Seconds for the head of a request, and for its body','tools/page/reception').
 part_setting(rest_seconds,typhon_node_process,number,1,'Seconds for agents to come to rest when their network stops','network/node_process').
 part_setting(restart_seconds,typhon_restarts,number,60,'Seconds within which the setting restarts counts','network/restarts').
 part_setting(restarts,typhon_restarts,nonneg,10,'Restarts of a process within restart_seconds','network/restarts').
@@ -196,6 +204,7 @@ part_setting(start,typhon_cells,number,120,'Seconds in which a cell has to load 
 part_setting(start_seconds,typhon_processes,number,60,'Seconds for the processes of a network to start','network/processes').
 part_setting(stop_seconds,typhon_children,number,5,'Seconds for a child to end in order before it is killed','network/children').
 part_setting(sure_seconds,typhon_fleet,number,2,'Seconds until what an engine with fsync(everysec) has accepted counts as kept','options/fleet/parking').
+part_setting(text_characters,typhon_people_server,positive_integer,2000,'Characters of a question that are shown; of a choice a tenth','tools/page/people_server').
 part_setting(traced,typhon_tracing,positive_integer,1000,'Agents whose traces are printed, the latest','options/trace/tracing').
 part_setting(virtual_events,typhon_watch_senders,positive_integer,1000000,'The same in virtual time, which runs ahead of all watches','options/watch/watch_senders').
 part_setting(watches,typhon_watch_senders,positive_integer,100,'Watches that another process may have here','options/watch/watch_senders').

@@ -6,6 +6,7 @@
             place_deliver/3,            % +Place, +Payload, -PIs
             place_undeliver/2,          % +Place, +Name
             place_service/2,            % ?Place, ?PI
+            place_serve/2,              % +Place, +PI
             service/1,                  % +PIs
             tuple_leave/2,              % +Place, +Fact
             tuple_leave/3,              % +Place, +Fact, +By
@@ -126,12 +127,16 @@ place_offer(Place, Service) :-
 
 service(PIs) :-
     prolog_load_context(module, Place),
-    forall(indicator_in(PIs, PI), serve(Place, PI)).
+    forall(indicator_in(PIs, PI), place_serve(Place, PI)).
 
-serve(Place, PI) :-
+%!  place_serve(+Place, +PI) is det.
+%
+%   All agents on the host of Place may call PI from now on.
+
+place_serve(Place, PI) :-
     place_service(Place, PI),
     !.
-serve(Place, PI) :-
+place_serve(Place, PI) :-
     must_be(ground, PI),
     assertz(place_service(Place, PI)),
     forall(serves(Place, PI), true).

@@ -10,6 +10,7 @@
             control_written/2,          % ?Head, -Written
             control_of_system/1,        % ?Head
             special/2,                  % ?Head, ?Kind
+            waiting_service/3,          % ?Head, -Begin, -Body
             named/4                     % +Prefix, +Goal, +More, -Named
           ]).
 :- use_module(library(lists), [append/3, member/2]).
@@ -184,6 +185,20 @@ control_written(Head, Written) :-
 control_of_system(Head) :-
     control_use(Head, called(_)),
     '$c_current_predicate'(_, system:Head).
+
+%!  waiting_service(?Head, -Begin, -Body) is nondet.
+%
+%   A predicate of a place runs to its end.  So where a place has Begin, the
+%   machine unfolds a goal Head to Body, which begins with Begin and then waits.
+
+waiting_service(ask(Question, Answer), Begin,
+                (Begin, receive(people-answer(Number, Given)),
+                 Given = given(Answer))) :-
+    Begin = person_ask(Question, text, Number).
+waiting_service(choose(Question, Choices, Choice), Begin,
+                (Begin, receive(people-answer(Number, Given)),
+                 Given = given(Choice))) :-
+    Begin = person_ask(Question, choice(Choices), Number).
 
 %!  special(?Head, ?Kind) is nondet.
 %

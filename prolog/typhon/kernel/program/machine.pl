@@ -8,7 +8,8 @@
           ]).
 :- use_module('../base/error_text', [is_abort/1]).
 :- use_module(bodies,
-              [body_goals/4, called_goal/2, goals_body/2, special/2]).
+              [ body_goals/4, called_goal/2, goals_body/2, special/2,
+                waiting_service/3 ]).
 :- use_module(chunks,
               [ chunks_ready/1, frame_goals/4, goals_without/3,
                 place_marked/3, plain_goals/2 ]).
@@ -231,6 +232,9 @@ called(Goal, Goals, X, Base, Out) :-
             run(More, X, Base, Out)
         ;   fails(Goal, Goals)
         )
+    ;   service_waits(Goal, Agent, Body)
+    ->  body_goals(Body, _, More, Goals),
+        run(More, X, Base, Out)
     ;   Agent:Goal
     *-> still_needed(Goal, Goals),
         run(Goals, X, Base, Out)
@@ -370,7 +374,7 @@ mobile(outside(Heads), Agent) :-
     has_rule(Heads, Agent).
 
 has_rule([Head|Heads], Agent) :-
-    (   state_rule(Agent, Head)
+    (   ( state_rule(Agent, Head) ; service_waits(Head, Agent, _) )
     ->  true
     ;   has_rule(Heads, Agent)
     ).
@@ -383,6 +387,14 @@ state_rule(Agent, Goal) :-
     '$c_current_predicate'(_, Agent:Goal),
     predicate_property(Agent:Goal, dynamic),
     \+ predicate_property(Agent:Goal, imported_from(_)).
+
+%   service_waits(+Goal, +Agent, -Body) is semidet: Goal is a service of the
+%   place, and not a predicate of the agent or of the vocabulary.
+
+service_waits(Goal, Agent, Body) :-
+    waiting_service(Goal, Begin, Body),
+    '$get_predicate_attribute'(Agent:Begin, defined, 1),
+    !.
 
 native(Goal, Goals, X) :-
     inside(Goal, _-(\+ Goal), Goals, X, Out),

@@ -348,6 +348,7 @@ act(Kind, N, Key, Term) :-
                    ignore(typhon_durable:act(Kind, Key, Term)) )).
 
 :- durable(letter, Id, N, Term, act_again(letter, N, Id, Term)).
+:- durable(asked, Host, N, Term, act_again(asked, N, Host, Term)).
 :- durable(logged, Host, N, Term, act_again(logged, N, Host, Term)).
 
 typhon_durable:go_on :-
