@@ -58,7 +58,9 @@ a folder, with an interface of the same name beside it:
               work_take/4, work_keep/4, work_done/4, work_left/3,
               work_results/3 ]).
 :- reexport(typhon/tools/environment, [agents/0, hosts/0]).
-:- reexport(typhon/tools/page, [page_start/1, page_stop/0]).
+:- reexport(typhon/tools/page,
+            [ page_start/1, page_stop/0, people_start/2, people_start/3,
+              people_revoke/1, people_stop/0 ]).
 :- reexport(typhon/bridges/common/starting,
             [ mqtt_start/3, mqtt_stop/1, python_start/3, python_stop/1,
               ros_start/3, ros_stop/1, ros_property/2, fipa_start/3,

@@ -2,10 +2,19 @@
           [ page_start/1,               % +Options
             page_serve/2,               % +Options, -Link
             page_stop/0,
+            people_start/2,             % +Names, +Options
+            people_start/3,             % +Names, -Links, +Options
+            people_revoke/1,            % +Name
+            people_stop/0,
             page_export/3               % +Log, +File, +Options
           ]).
+:- autoload('page/people_server',
+            [people_end/0, people_revoked/1, people_serve/3, qr_code/2]).
 :- autoload('page/replay', [replay_export/3]).
 :- autoload('page/server', [server_start/2, server_stop/0]).
+:- use_module(library(error), [must_be/2]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(option), [option/2]).
 :- use_module('../kernel/base/options', [check_options/2]).
 
 /** <module> A web page to watch and control a network
@@ -69,6 +78,74 @@ page_stop :-
     ;   true
     ).
 
+%!  people_start(+Names:list(atom), +Options:list) is det.
+%!  people_start(+Names:list(atom), -Links:list, +Options:list) is det.
+%
+%   Give each person of Names a host, on which agents can ask that person, and
+%   a link to a page with a form.  A host Name that has people(true) already is
+%   kept, and gets a new link in place of its old one; others are started.  The
+%   links are printed; or Links are pairs Name-Link.  Who has a link answers for
+%   that person, and can do nothing else.  Options:
+%
+%     - port(+Port), bind(+Interface): of the server, default 8081 and localhost
+%     - advertise(+Address): what links say in place of Interface
+%     - seconds(+Seconds): time for which the links are valid, default 12 hours
+%     - link(+Host): each new host is linked to Host, see link/2
+%     - hosts(+Options): of host_start/2, for the new hosts
+%     - qr(+Boolean): print each link as a QR code, too; needs the program
+%       qrencode
+%
+%   @error permission_error(start, people, Port): the server runs already, and
+%          Options say where
+%   @error permission_error(invite, host, Name): the host has not people(true)
+%   @error existence_error(option, advertise(_)) with bind('0.0.0.0')
+%   @error domain_error(people_option, Option)
+
+people_start(Names, Options) :-
+    people_start(Names, Links, Options),
+    forall(member(Name-Link, Links),
+           ( print_message(informational, typhon(person(Name, Link))),
+             print_code(Options, Link) )).
+
+print_code(Options, Link) :-
+    option(qr(true), Options),
+    !,
+    (   qr_code(Link, Lines)
+    ->  print_message(informational, typhon(qr_code(Lines)))
+    ;   print_message(warning, typhon(no_qr_code))
+    ).
+print_code(_, _).
+
+people_start(Names, Links, Options) :-
+    check_options(people_option, Options),
+    must_be(list(atom), Names),
+    people_serve(Names, Links, Options).
+
+%!  people_revoke(+Name) is det.
+%!  people_stop is det.
+%
+%   Make the link of the person Name invalid; questions go on waiting for the
+%   next link.  Stop the server; hosts and valid links remain.
+%
+%   @error existence_error(person, Name)
+
+people_revoke(Name) :-
+    people_revoked(Name).
+
+people_stop :-
+    (   current_module(typhon_people_server)
+    ->  people_end
+    ;   true
+    ).
+
+typhon_options:declared(people_option, port(X), between(0, 65535), X).
+typhon_options:declared(people_option, bind(X), atom, X).
+typhon_options:declared(people_option, advertise(X), atom, X).
+typhon_options:declared(people_option, seconds(X), nonneg, X).
+typhon_options:declared(people_option, link(X), atom, X).
+typhon_options:declared(people_option, hosts(X), list, X).
+typhon_options:declared(people_option, qr(X), boolean, X).
+
 %!  page_export(+Log, +File, +Options:list) is det.
 %
 %   Write a page to File that replays the log file Log, in the same views.  File
@@ -91,3 +168,15 @@ typhon_options:declared(export_option, overlays(X), list, X).
 
 prolog:message(typhon(page(Link))) -->
     [ 'The page: ~w'-[Link] ].
+prolog:message(typhon(person(Name, Link))) -->
+    [ '~w: ~w'-[Name, Link] ].
+prolog:message(typhon(qr_code(Lines))) -->
+    qr_lines(Lines).
+prolog:message(typhon(no_qr_code)) -->
+    [ 'QR codes need the program qrencode' ].
+
+qr_lines([]) -->
+    [].
+qr_lines([Line|Lines]) -->
+    [ nl, '~w'-[Line] ],
+    qr_lines(Lines).

@@ -2,33 +2,25 @@
           [ server_start/2,             % +Options, -Link
             server_stop/0
           ]).
-:- use_module(library(error),
-              [ domain_error/2, must_be/2, permission_error/3,
-                syntax_error/1 ]).
-:- use_module(library(http/http_wrapper), [http_wrapper/5]).
+:- use_module(library(error), [permission_error/3]).
 :- use_module(library(http/websocket), [http_upgrade_to_websocket/3]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../../kernel/base/error_lines', [error_text/2]).
-:- use_module('../../kernel/base/monotonic', [deadline/2]).
-:- use_module('../../bridges/json', [json_dict/2, json_text/2]).
 :- use_module('../../bridges/common',
-              [ client_becomes/1, http_before/2, http_head/4,
-                http_server_close/1, http_server_open/4, with_bytes/3 ]).
+              [http_server_close/1, http_server_open/4]).
 :- use_module(browser_orders, [order_run/2, orders_allowed/2]).
 :- use_module(browsers, [browser_serve/2, browsers_start/0, browsers_stop/0]).
-:- use_module(editor,
-              [ editor_start/0, editor_stop/0, on_console/1,
-                without_folder/2 ]).
+:- use_module(editor, [editor_start/0, editor_stop/0, on_console/1]).
 :- use_module(guard,
-              [ guarding_headers/0, page_file/3, request_own/1,
-                request_within/2, token_new/1, token_right/2 ]).
+              [page_file/3, request_own/1, token_new/1, token_right/2]).
 :- use_module(overlays,
               [ overlays_shown/1, overlays_start/1, overlays_stop/0 ]).
 :- use_module(protocol, [times_stop/0]).
 :- use_module(queries,
               [ present_scene/1, query_answer/2, world_shown/0,
                 world_start/1, world_stop/0 ]).
+:- use_module(reception,
+              [client_serve/3, file_reply/2, json_reply/4, refuse/2, text_reply/2]).
 :- use_module(runs, [runs_stop/0]).
 :- use_module(sources, [sources_metrics/1, sources_start/1, sources_stop/0]).
 
@@ -39,19 +31,9 @@ the page, `/TOKEN/feed` the WebSocket; queries and orders are posted to
 `/TOKEN/ask`; other names are those of files.  `/?token=TOKEN` redirects to the
 page, and `feed?token=TOKEN` and `metrics?token=TOKEN` are also valid.
 
-It does not use http_dispatch, so that this server and other HTTP servers of the
-process do not see each other's handlers.
-
-The head of a request is read into memory before the HTTP library parses it: its
-size is bounded, and so is the time from its first byte to its last, see
-typhon_http_server.  The body is read after the token has been verified, within
-a bounded time, too.
-
 *Threading*: a mutex serialises start and stop.  Each client has a thread, and
 one thread accepts connections.
 */
-
-:- use_module(library(http/http_stream), []). % else WebSockets are HTTP/1.0
 
 :- setting(request_bytes, positive_integer, 4 000 000,
            "Bytes of a request to a page, at most").
@@ -156,7 +138,8 @@ route([], Token, _, _) =>
 route([feed], _, _, Request) =>
     http_upgrade_to_websocket(feed, [guarded(false)], Request).
 route([ask], _, In, Request) =>
-    answer(In, Request).
+    setting(request_bytes, Most),
+    json_reply(In, Request, Most, answer).
 route([metrics], _, _, _) =>
     on_console(sources_metrics(Text)),
     text_reply('text/plain; version=0.0.4', Text).
@@ -164,7 +147,7 @@ route(Names, _, _, Request) =>
     (   memberchk(method(Method), Request),
         memberchk(Method, [get, head]),
         page_file(Names, File, Type)
-    ->  send_file(File, Type)
+    ->  file_reply(File, Type)
     ;   refuse(404, 'There is no file of this name')
     ).
 
@@ -182,64 +165,15 @@ first_frame(_{snapshot:Scene}) :-
     Scene = Seen.put(_{ read_only:ReadOnly, overlays:Overlays,
                         orders:Orders, world:World }).
 
-send_file(File, Type) :-
-    setup_call_cleanup(
-        open(File, read, In, [type(binary)]),
-        read_string(In, _, Bytes),
-        close(In)),
-    format('Content-Type: ~w\r\n', [Type]),
-    guarding_headers,
-    format('\r\n'),
-    current_output(Out),
-    set_stream(Out, encoding(octet)),
-    write(Bytes).
-
-text_reply(Type, Text) :-
-    format('Content-Type: ~w; charset=UTF-8\r\n', [Type]),
-    guarding_headers,
-    format('\r\n~w', [Text]).
-
-refuse(Status, Why) :-
-    format('Status: ~d Refused\r\n', [Status]),
-    text_reply('text/plain', Why).
-
                 /*******************************
                 *        QUERIES, ORDERS       *
                 *******************************/
 
-answer(In, Request) :-
-    setting(request_bytes, Most),
-    (   \+ memberchk(method(post), Request)
-    ->  refuse(405, 'Only POST')
-    ;   request_within(Request, Most)
-    ->  catch(answer_to(In, Request, Answer), Error,
-              error_answer(Error, Answer)),
-        json_text(Answer, Text),
-        text_reply('application/json', Text)
-    ;   refuse(413, 'Too large, or of no known length')
-    ).
-
-answer_to(In, Request, _{answer:Answer}) :-
-    must_be_json(Request),
-    memberchk(content_length(Length), Request),
-    with_body(In, Length, Body,
-              ( set_stream(Body, encoding(utf8)),
-                read_string(Body, _, Text) )),
-    json_dict(Text, Message),
-    must_be(dict, Message),
+answer(Message, Answer) :-
     (   get_dict(do, Message, What)
     ->  may_order(What),
         order_run(Message, Answer)
     ;   query_answer(Message, Answer)
-    ).
-
-%   A form of another site cannot send this type.
-
-must_be_json(Request) :-
-    memberchk(content_type(Type), Request),
-    (   sub_atom(Type, 0, _, _, 'application/json')
-    ->  true
-    ;   domain_error(mimetype, Type)
     ).
 
 %   No order runs without this check.
@@ -250,84 +184,7 @@ may_order(What) :-
     ;   permission_error(What, page, read_only)
     ).
 
-error_answer(Error, _{error:Text}) :-
-    error_text(Error, Text0),
-    without_folder(Text0, Text).
-
-                /*******************************
-                *   CONNECTIONS OF BROWSERS    *
-                *******************************/
-
-:- setting(typhon_page_reception:connections, positive_integer, 64,
-           "Clients of a page at a time").
-:- setting(typhon_page_reception:request_seconds, positive_integer, 20,
-           "Seconds for the head of a request, and for its body").
-:- setting(typhon_page_reception:head_bytes, positive_integer, 16 384,
-           "Bytes of the head of a request, at most").
-
-:- meta_predicate with_body(+, +, -, 0).
-
 :- public client/2.             % called by typhon_http_server
 
-client(none, Out) :-
-    !,
-    format(Out, 'HTTP/1.1 503 Service Unavailable\r\n\c
-                 Content-Length: 0\r\nConnection: close\r\n\r\n', []),
-    flush_output(Out).
 client(In, Out) :-
-    setting(typhon_page_reception:request_seconds, Seconds),
-    set_stream(Out, timeout(Seconds)),
-    deadline(Seconds, Deadline),
-    setting(typhon_page_reception:head_bytes, Most),
-    http_head(In, Most, Deadline, Bytes),
-    client_becomes(busy),
-    handler(In, Handler),
-    with_bytes(written(Bytes), Head,
-               http_wrapper(Handler, Head, Out, Close, [])),
-    switched(Close, In, Out).
-
-%   http_wrapper/5 adds the request, against its meta-predicate declaration.
-%   serve/2 prints an answer like the handlers of library(http), and reads the
-%   body from In.
-
-handler(In, typhon_page_server:serve(In)).
-
-%   After the upgrade the connection is a WebSocket.
-
-switched(switch_protocol(Goal, _), In, Out) =>
-    client_becomes(apart),
-    set_stream(Out, timeout(infinite)),
-    call(Goal, In, Out).
-switched(_, _, _) =>
-    true.
-
-%   with_body(+In, +Length, -Body, :Goal) is semidet.
-%
-%   Read a body of Length bytes from In, and run Goal once, in which Body is a
-%   stream with these bytes.
-%
-%   @error timeout_error(read, In)
-%   @error syntax_error(http_length) the body is shorter
-
-with_body(In, Length, Body, Goal) :-
-    setting(typhon_page_reception:request_seconds, Seconds),
-    deadline(Seconds, Deadline),
-    with_bytes(copied(In, Length, Deadline), Body, Goal).
-
-copied(In, Left, Deadline, Out) :-
-    (   Left > 0
-    ->  http_before(Deadline, In),
-        (   peek_byte(In, -1)
-        ->  syntax_error(http_length)
-        ;   true
-        ),
-        read_pending_codes(In, Bytes, []),
-        written(Bytes, Out),
-        length(Bytes, Count),
-        Left1 is Left-Count,
-        copied(In, Left1, Deadline, Out)
-    ;   true
-    ).
-
-written(Bytes, Out) :-
-    format(Out, '~s', [Bytes]).
+    client_serve(typhon_page_server:serve, In, Out).

@@ -92,11 +92,11 @@ test(bodies_have_a_known_length_within_the_bound,
 test(bodies_are_json, Verdicts == [yes,yes,no,no]) :-
     findall(V, ( member(T, [ 'application/json', 'application/json; charset=x',
                              'text/plain', 'text/application/json' ]),
-                 ( catch(typhon_page_server:must_be_json([content_type(T)]),
+                 ( catch(typhon_page_reception:must_be_json([content_type(T)]),
                          error(domain_error(mimetype, _), _), fail)
                  -> V = yes ; V = no ) ), Verdicts).
 test(body_without_a_type_is_refused, [fail]) :-
-    typhon_page_server:must_be_json([]).
+    typhon_page_reception:must_be_json([]).
 test(orders_need_a_page_that_is_not_read_only, Verdicts == [yes,no]) :-
     findall(V, ( member(ReadOnly, [false,true]),
                  setup_call_cleanup(
