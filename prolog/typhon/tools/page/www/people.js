@@ -38,7 +38,8 @@ async function answer(number, value, fields, error) {
 
 function input(question) {
   return question.kind === 'number'
-    ? element('input', {type: 'text', inputMode: 'decimal', required: true, maxLength: 40})
+    ? element('input', {type: 'text', inputMode: 'decimal', required: true, maxLength: 40,
+        title: 'A number, such as 12 or 2.5', pattern: '\\s*[+\\-]?[0-9]+([.][0-9]+)?\\s*'})
     : element('textarea', {rows: 2, required: true, maxLength: 2000});
 }
 
