@@ -113,7 +113,8 @@ typhon_scheduler:fire(Dynamics, links) :-
 typhon_scheduler:over(Dynamics, links) :-
     \+ dynamics(Dynamics, _, _).
 
-%   Runs in a worker: changes of hosts in other processes may take long.
+%   Runs in a worker: changes of hosts in other processes may take long.  The next
+%   step may begin in another worker before this one has ended.
 
 step(Dynamics) :-
     thread_self(Me),
@@ -121,7 +122,7 @@ step(Dynamics) :-
         assertz(changing(Dynamics, Me)),
         catch(change_links(Dynamics), stop_changing, true),
         ( nb_setval(typhon_changing, none),
-          retractall(changing(Dynamics, _)) )).
+          retractall(changing(Dynamics, Me)) )).
 
 change_links(Dynamics) :-
     nb_setval(typhon_changing, Dynamics),
