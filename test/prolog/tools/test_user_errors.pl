@@ -75,6 +75,9 @@ valid(network_save(net, '/nowhere/net'), ['Network', 'File']).
 valid(network_start(none, _, []), ['Topology', 'Options']).
 valid(network_stop(none), ['Network']).
 valid(page_start([bind(nowhere)]), ['Options']).
+valid(people_revoke(nobody), ['Name']).
+valid(people_start([anna], [bind(nowhere)]), ['Names', 'Options']).
+valid(people_start([anna], _, [bind(nowhere)]), ['Names', 'Options']).
 valid(payload_attach(bob, none), ['Agent', 'Payload']).
 valid(payload_detach(bob, none), ['Agent', 'Name']).
 valid(python_start(alpha, none, []), ['Host', 'File', 'Options']).
