@@ -72,7 +72,7 @@ agent; answers and taken_over/4 in the threads of the endpoint, which never wait
                 host_plain_departure/2, host_time/2, parts/3, real_time/3,
                 schedule/2, schedule_here/3, schedule_stays/2,
                 scheduler_call/1 ]).
-:- use_module('../program', [code_compiled/2, plain_goals/2]).
+:- use_module('../program', [code_compiled/2, code_sent/2, plain_goals/2]).
 :- use_module('../wire',
               [ endpoint_address/1, endpoint_afterwards/1, endpoint_hand/4,
                 endpoint_hand_over/2, endpoint_hand_to/2, endpoint_handed/2,
@@ -188,7 +188,7 @@ send(Transfer, Image) :-
 
 send_image(Transfer, Image0) :-
     arg(2, Transfer, dest(_, Name, Endpoint)),
-    amended_image(Transfer, Image0, Image, Program),
+    amended_image(Transfer, program_sent(Endpoint), Image0, Image, Program),
     (   durable_on
     ->  commits_must_succeed,
         hop_request(Transfer, Name, Image, Program, Request),
@@ -200,10 +200,12 @@ send_image(Transfer, Image0) :-
                          answered(Transfer))
     ).
 
-%   amended_image(+Transfer, +Image0, -Image, -Program): what is sent; options
-%   of the host add to it.
+%   amended_image(+Transfer, :Sent, +Image0, -Image, -Program): what is sent;
+%   options of the host add to it.  call(Sent, Hash, Program0) gives its program.
 
-amended_image(Transfer, Image0, Image, Program) :-
+:- meta_predicate amended_image(+, 2, +, -, -).
+
+amended_image(Transfer, Sent, Image0, Image, Program) :-
     parts(departs, _, _),
     arg(1, Transfer, Id),
     agent(Id, Host, _, _, _),           % else it was ended meanwhile
@@ -211,13 +213,12 @@ amended_image(Transfer, Image0, Image, Program) :-
     arg(2, Transfer, dest(Address, _, Endpoint)),
     image_amended(departs, Host, Address, Image0, Image),
     image_hash(Image0, Hash),
-    program_sent(Endpoint, Hash, Sent),
+    call(Sent, Hash, Program0),
     transfer_traveller(Transfer, Agent, _),
-    amended(papers, Host, program(Agent, Hash, Endpoint), Sent, Program).
-amended_image(Transfer, Image, Image, Program) :-
-    arg(2, Transfer, dest(_, _, Endpoint)),
+    amended(papers, Host, program(Agent, Hash, Endpoint), Program0, Program).
+amended_image(_, Sent, Image, Image, Program) :-
     image_hash(Image, Hash),
-    program_sent(Endpoint, Hash, Program).
+    call(Sent, Hash, Program).
 
 %   Without a journal the hop needs no answer: settlement of its frame means
 %   that it was accepted.  Fails if there is no connection.
@@ -243,14 +244,11 @@ hop_request(Transfer, Name, Image, Program, Request) :-
 %   Held is for its return.  Fails if the agent was given up.
 
 transfer_parcel(Transfer, parcel(From, To, Image, Held, Program)) :-
-    Transfer = transfer(Id, dest(To, _, Endpoint), _),
+    Transfer = transfer(Id, dest(To, _, _), _),
     agent(Id, Host, _, _, _),
     host(Host, From, _),
     transfer_image(Transfer, Image0, Held),
-    image_hash(Image0, Hash),
-    program_missing(Endpoint, Hash),    % so it is in Program
-    amended_image(Transfer, Image0, Image, Program),
-    program_missing(Endpoint, Hash).
+    amended_image(Transfer, code_sent, Image0, Image, Program).
 
 not_sent(Formal, Transfer) :-
     (   may_have_arrived(Transfer)

@@ -382,6 +382,21 @@ test(operator_sends_an_agent_to_a_host_that_has_left_the_fleet,
                  agent_send(A, last),
                  agent_result(A, Result, 60) )).
 
+test(each_parked_agent_has_its_program_with_it, Result == [none,Robot,1]) :-
+    with_robot([fsync(always)], [], _, Robot,
+               ( peer_kill(robot),
+                 visitor(Robot, 600, A),
+                 gone([A]),
+                 visitor(Robot, 600, B),
+                 gone([A,B]),
+                 fleet_park_drop(lab, A),
+                 await_parked([B]),
+                 agent_send(A, last),
+                 agent_result(A, _, 60),
+                 peer_restart(robot),
+                 agent_send(B, last),
+                 agent_result(B, Result, 60) )).
+
 test(agent_of_no_fleet_does_not_wait,
      Result == [host_unreachable(Host),Alpha,0]) :-
     free_port(Port),
