@@ -209,7 +209,9 @@ run_connected(Command, Arguments, Options) :-
 %   It starts one itself, or reads files alone.
 
 needs_no_endpoint(Command, _) :-
-    memberchk(Command, [host, network, journal, check, story, picture]).
+    memberchk(Command, [host, network, check, story, picture]).
+needs_no_endpoint(journal, Options) :-
+    \+ memberchk(fleet(_), Options).
 needs_no_endpoint(log, Options) :-
     ( memberchk(serve(true), Options) ; \+ memberchk(host(_), Options) ).
 needs_no_endpoint(page, Options) :-

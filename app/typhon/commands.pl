@@ -149,7 +149,7 @@ option(host, journal, atom, 'DIR',
 option(host, fleet, atom, 'FLEET',
        'fleet of the host; its agents go elsewhere when it stops').
 option(Command, Option, Type, Meta, Help) :-
-    memberchk(Command, [host, fleet]),
+    memberchk(Command, [host, fleet, journal]),
     engine_option(Option, Type, Meta, Help).
 option(host, tags, atom, 'A,B',
        'with --fleet: what any(Tag) finds the host by').
@@ -215,6 +215,8 @@ option(page, read_only, boolean, boolean,
        'accept no orders from the page').
 option(page, export, atom, 'FILE',
        'write a page that replays LOG to FILE, and serve none').
+option(journal, fleet, atom, 'FLEET',
+       'DIR is the name of a journal in the engine of this fleet').
 option(journal, agents, boolean, '',
        'print a line for each agent').
 option(journal, check, boolean, '',

@@ -1,16 +1,21 @@
 :- module(typhon_app_engine_options,
           [ engine_option/4,            % ?Option, ?Type, ?Meta, ?Help
-            engine_options/3            % +Program, +Options, -FleetOptions
+            engine_options/3,           % +Program, +Options, -FleetOptions
+            in_fleet/4                  % +Program, +Options, -Fleet, :Goal
           ]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module('../../prolog/typhon', [fleet_join/2, fleet_leave/1]).
+:- use_module(serving, [and_then/2]).
 :- use_module(usage, []).
 
 /** <module> The engine of a fleet on the command line
 
-*Threading*: facts, and files that are read.
+*Threading*: the main thread.
 */
+
+:- meta_predicate in_fleet(+, +, -, 0).
 
 %!  engine_option(?Option, ?Type, ?Meta, ?Help) is nondet.
 %
@@ -77,3 +82,15 @@ for_engine(_, Options, tls(true)) :-
 for_engine(_, Options, Option) :-
     member(Option, [cacert(_), cert(_), key(_)]),
     option(Option, Options).
+
+%!  in_fleet(+Program, +Options:list, -Fleet, :Goal) is nondet.
+%
+%   Call Goal while this process is a member of Fleet, which is among Options.
+%
+%   @error typhon_usage(required(Program, Option)), errors of fleet_join/2
+
+in_fleet(Program, Options, Fleet, Goal) :-
+    needed(fleet(Fleet), Program, Options),
+    engine_options(Program, Options, Engine),
+    fleet_join(Fleet, Engine),
+    and_then(Goal, fleet_leave(Fleet)).

@@ -4,16 +4,14 @@
 :- use_module(library(lists), [member/2, subset/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../../prolog/typhon',
-              [ agent_where/2, fleet_join/2, fleet_leave/1, fleet_parked/2,
-                remote/2 ]).
+              [agent_where/2, fleet_parked/2, remote/2]).
 :- use_module('../../prolog/typhon/kernel/base/text', [format_shown/2]).
 :- use_module('../../prolog/typhon/kernel/host',
               [address_parts/3, process_ask/6]).
 :- use_module('../../prolog/typhon/options/fleet',
               [fleet_overview/3, fleet_park_drop/2, fleet_park_send/2]).
 :- use_module('../../prolog/typhon/tools/tables', [print_table/3]).
-:- use_module(engine_options, [engine_options/3]).
-:- use_module(serving, [and_then/2]).
+:- use_module(engine_options, [in_fleet/4]).
 
 /** <module> The command `fleet`
 
@@ -24,24 +22,22 @@ entitles to no orders.
 *Threading*: the main thread.
 */
 
-:- meta_predicate in_fleet(+, -, 0).
-
 %!  fleet(+What, +Arguments, +Options) is semidet.
 %
 %   Fails if the answer is negative.
 
 fleet(hosts, [], Options) =>
-    in_fleet(Options, Fleet, fleet_overview(Fleet, [], Hosts)),
+    in_fleet(fleet, Options, Fleet, fleet_overview(Fleet, [], Hosts)),
     findall(Row, ( member(Host, Hosts), wanted(Host, Options),
                    host_row(Host, Row) ),
             Rows),
     print_table([ host-left, state-left, since-left, agents-right,
                   parked-right, tags-left ], Rows, host).
 fleet(where, [Agent], Options) =>
-    in_fleet(Options, _, agent_where(Agent, Host)),
+    in_fleet(fleet, Options, _, agent_where(Agent, Host)),
     format_shown('~w~n', [Host]).
 fleet(park, [list], Options) =>
-    in_fleet(Options, Fleet, fleet_parked(Fleet, Parked)),
+    in_fleet(fleet, Options, Fleet, fleet_parked(Fleet, Parked)),
     findall([Agent, Host, From, To],
             ( member(parked(Agent, Host, Since, Until), Parked),
               time_text(Since, From),
@@ -50,9 +46,9 @@ fleet(park, [list], Options) =>
     print_table([agent-left, host-left, since-left, until-left], Rows,
                 'parked agent').
 fleet(park, [drop, Agent], Options) =>
-    in_fleet(Options, Fleet, fleet_park_drop(Fleet, Agent)).
+    in_fleet(fleet, Options, Fleet, fleet_park_drop(Fleet, Agent)).
 fleet(park, [send, Agent], Options) =>
-    in_fleet(Options, Fleet, fleet_park_send(Fleet, Agent)).
+    in_fleet(fleet, Options, Fleet, fleet_park_send(Fleet, Agent)).
 fleet(drain, [Host], Options) =>
     findall(Option, drain_option(Options, Option), DrainOptions),
     address_parts(Host, Name, _),
@@ -86,14 +82,6 @@ lacks(fleet(Fleet), Host) =>
     throw(error(typhon_usage(no_engine(Host, Fleet)), _)).
 lacks(What, _) =>
     throw(error(resource_error(What), _)).
-
-in_fleet(Options, Fleet, Goal) :-
-    (   option(fleet(Fleet), Options)
-    ->  engine_options(fleet, Options, Engine)
-    ;   throw(error(typhon_usage(required(fleet, fleet)), _))
-    ),
-    fleet_join(Fleet, Engine),
-    and_then(Goal, fleet_leave(Fleet)).
 
 wanted(host(_, State, _, Tags, _, _), Options) :-
     (   option(away(true), Options)

@@ -9,6 +9,7 @@
               [ journal_found/1, journal_item/5, journal_open/2,
                 journal_part/3, journal_place/2, store_close/0 ]).
 :- use_module('../../prolog/typhon/tools/administration/restore', [restore_point/2]).
+:- use_module(engine_options, [in_fleet/4]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(error), [existence_error/2]).
 :- use_module(library(lists), [append/3, member/2]).
@@ -26,13 +27,22 @@ The process must not be running: a running process locks its journal.
 %   Prints the contents of the journal Dir, or of the journals of a network
 %   below it: an overview; with agents(true) a line for each agent; with
 %   check(true) whether the journal can be read completely; with
-%   extract(Agent) and to(File) it writes a restore point of Agent.
+%   extract(Agent) and to(File) it writes a restore point of Agent.  With
+%   fleet(_) and its engine Dir is the name of a journal in that.
 %
 %   @error existence_error(journal, Dir), existence_error(agent, Agent)
 %   @error errors of journal_open/2
 
 journal_shown(Dir, Options) :-
-    journals(Dir, Journals),
+    (   option(fleet(_), Options)
+    ->  in_fleet(journal, Options, Fleet,
+                 ( atomic_list_concat([Fleet, /, Dir], Path),
+                   contents(redis(Path), Options) ))
+    ;   contents(Dir, Options)
+    ).
+
+contents(Where, Options) :-
+    journals(Where, Journals),
     (   option(extract(Agent), Options),
         option(to(File), Options)
     ->  extracted_of(Journals, Agent, File)

@@ -85,6 +85,10 @@ up(Tag, Hosts) :-
     catch(fleet_hosts(lab, Hosts, [tag(Tag), state(up)]),
           error(existence_error(tag, _), _), Hosts = []).
 
+journal(Args, Status, Out, Err) :-
+    project_file('app/typhon.pl', App),
+    run_swipl([App,journal|Args], [timeout(60)], Status, Out, Err).
+
 :- begin_tests(fleet_host).
 
 test(host_is_known_by_its_tags_until_it_stops, true(Status == exit(0))) :-
@@ -123,9 +127,19 @@ test(journal_in_the_engine_outlives_the_process, true(Got == [kept])) :-
               hosting(All, Host,
                       ( keeper(Host, Agent),
                         agent_send(Agent, kept),
-                        wait_until(kept(Agent, [kept]), 20) ),
+                        wait_until(kept(Agent, [kept]), 20),
+                        journal([alpha|Options], exit(1), _, Running),
+                        assertion(sub_string(Running, _, _, _,
+                                             "another process has it")) ),
                       exit(0)),
+              journal([alpha,'--agents'|Options], exit(0), Lines, ""),
+              assertion(sub_string(Lines, 0, _, _, "keeper.")),
               hosting(All, Host, kept(Agent, Got), exit(0)) )))).
+test(journal_that_the_engine_does_not_have, true(Status == exit(1))) :-
+    with_engine(Redis, File,
+        ( engine_options(Redis, File, Options),
+          journal([beta|Options], Status, "", Err),
+          assertion(sub_string(Err, _, _, _, "lab/beta")) )).
 test(password_is_no_argument_and_in_no_environment) :-
     with_engine(Redis, File,
         ( engine_options(Redis, File, Options),
