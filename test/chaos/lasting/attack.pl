@@ -62,11 +62,10 @@ attacked(Nodes, Options, Wrong) :-
     option(seconds(Limit), Options, 100),
     maplist(node_host, Nodes, Hosts),
     people(Hosts, Agents, Each, People),
-    get_time(Now),
-    Deadline is Now+Limit,
     faults_begin(Options),
-    all_end(People, Deadline, Ends),
+    all_end(People, Limit, _, _),
     faults_end,
+    all_end(People, Limit, Deadline, Ends),    % what is late now is stuck
     catch(findall(W, wrong(People, Ends, Hosts, Each, Deadline, W), Wrong),
           Ball, true),
     evidence(Ball, Wrong, Ends, Nodes).
@@ -130,6 +129,8 @@ begins(Name, Host, Facts, Agent) :-
     project_file(Relative, File),
     agent_create(File, Agent, [host(Host), facts(Facts)]).
 
-all_end(people(Hoppers, Porters, Talkers, _), Deadline, Ends) :-
+all_end(people(Hoppers, Porters, Talkers, _), Limit, Deadline, Ends) :-
     append([Hoppers, Porters, Talkers], All),
+    get_time(Now),
+    Deadline is Now+Limit,
     agents_end(All, Deadline, Ends).
