@@ -21,6 +21,7 @@
 
 :- multifile
     typhon_hosts:one_of/2,
+    typhon_members:is_new/1,
     typhon_names:known/2,
     typhon_options:declared/4.
 
@@ -135,13 +136,36 @@ typhon_hosts:one_of(any(Tag), Host) :-
     findall(Fleet, fleet_joined(Fleet, _), Fleets),
     (   Fleets == []
     ->  existence_error(fleet, any(Tag))
-    ;   member(Fleet, Fleets),
-        loads(Fleet, Tags, Until, Loads),
-        with_mutex(typhon_fleet_choice,
-                   chosen(Fleet, Tags, Until, Loads, Host))
-    ->  true
-    ;   resource_error(hosts(Tag))
+    ;   one_of_fleets(Fleets, Tags, none, Answer),
+        chosen_or_error(Answer, Tag, Host)
     ).
+
+%   one_of_fleets(+Fleets, +Tags, +Error0, -Answer): Answer is host(Host) of the
+%   first fleet that has one, else the first error, or `none`.
+
+one_of_fleets([], _, Answer, Answer).
+one_of_fleets([Fleet|Fleets], Tags, Error0, Answer) :-
+    catch(one_in(Fleet, Tags, Answer0), error(Formal, Context),
+          Answer0 = error(Formal, Context)),
+    (   Answer0 = host(_)
+    ->  Answer = Answer0
+    ;   ( Error0 == none -> Error = Answer0 ; Error = Error0 ),
+        one_of_fleets(Fleets, Tags, Error, Answer)
+    ).
+
+one_in(Fleet, Tags, Answer) :-
+    loads(Fleet, Tags, Until, Loads),
+    (   with_mutex(typhon_fleet_choice,
+                   chosen(Fleet, Tags, Until, Loads, Host))
+    ->  Answer = host(Host)
+    ;   Answer = none
+    ).
+
+chosen_or_error(host(Host), _, Host).
+chosen_or_error(none, Tag, _) :-
+    resource_error(hosts(Tag)).
+chosen_or_error(error(Formal, Context), _, _) :-
+    throw(error(Formal, Context)).
 
 %!  choices_forget(+Fleet) is det.
 %
@@ -149,6 +173,9 @@ typhon_hosts:one_of(any(Tag), Host) :-
 
 choices_forget(Fleet) :-
     retractall(choice(Fleet, _, _, _)).
+
+typhon_members:is_new(Fleet) :-
+    choices_forget(Fleet).
 
 %   loads(+Fleet, +Tags, -Until, -Loads): asked without a lock.
 

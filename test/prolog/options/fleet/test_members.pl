@@ -54,6 +54,11 @@ changed(Changes) :-
     findall(Change, change(Change), All),
     append(Changes, _, All).
 
+chosen(Tag, Name) :-
+    create([(main :- receive(_))], A, [host(any(Tag))]),
+    agent_property(A, host(Host)),
+    atomic_list_concat([Name|_], @, Host).
+
 :- begin_tests(members).
 
 test(host_is_known_when_host_start_returns, Names == [alpha]) :-
@@ -87,6 +92,24 @@ test(own_choices_count, Hosts == [a,a,a,b,b,b]) :-
                                  atomic_list_concat([Host|_], @, H) ),
                          Hosts0),
                  msort(Hosts0, Hosts) )).
+
+test(each_fleet_is_asked_for_a_tag,
+     Here-Formal == beta-existence_error(tag, nobody)) :-
+    with_fleet([], Redis, [alpha-[robot]],
+               ( redis_address(Redis, Address),
+                 setup_call_cleanup(
+                     fleet_join(attic, [redis(Address)]),
+                     ( host_start(beta, [fleet(attic), tags([y])]),
+                       chosen(y, Here),
+                       catch(create([(main :- true)], _, [host(any(nobody))]),
+                             error(Formal, _), true),
+                       host_stop(beta) ),
+                     fleet_leave(attic)) )).
+
+test(choices_of_an_engine_end_with_it, Host == b) :-
+    with_settings([typhon_fleet:choice_seconds=60],
+                  ( with_fleet([], _, [a-[x]], chosen(x, a)),
+                    with_fleet([], _, [b-[x]], chosen(x, Host)) )).
 
 test(tags_change, Names == [alpha]) :-
     with_fleet([lease(0.3)], _, [alpha-[robot]],
