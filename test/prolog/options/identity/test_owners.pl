@@ -75,7 +75,7 @@ brought(Image, Birth, Answer) :-
 :- begin_tests(owners).
 
 test(honest_agents_are_admitted_and_forged_ones_refused) :-
-    with_owners(( honest, ids_taken, senders_forged, news_forged,
+    with_owners(( honest, boxes, ids_taken, senders_forged, news_forged,
                   program_changed, guarded )).
 
 :- end_tests(owners).
@@ -103,6 +103,24 @@ honest :-
     assertion(Heard == [ A-from_mallory, A-from_beta, A-from_home ]),
     agent_send(B, say(A, received(back))),
     wait_until(received(A, [B-back]), 20).
+
+%   A box at mallory, which takes no messages of alpha's agent from beta: those
+%   go by way of alpha.
+
+boxes :-
+    guest(Program),
+    agent_create(Program, A),
+    peer_host(mallory, Host),
+    peer_do(mallory,
+            ( use_module(library(typhon/options/external_recipients), []),
+              dynamic([ user:boxed/3, typhon_external_recipients:carried/4 ]),
+              assertz(( typhon_external_recipients:carried(_, box(N), F, M) :-
+                            assertz(user:boxed(N, F, M)) )) )),
+    agent_send(A, say(at(box(1), Host), from_home)),
+    wait_until(peer_do(mallory, user:boxed(1, A, from_home)), 20),
+    resides(A, beta),
+    agent_send(A, say(at(box(2), Host), from_beta)),
+    wait_until(peer_do(mallory, user:boxed(2, A, from_beta)), 20).
 
 %   An agent there could not continue from a network that was saved and loaded.
 %   As a network does, the test waits until no agent runs there: A has just
