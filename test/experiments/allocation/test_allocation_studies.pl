@@ -105,6 +105,17 @@ competing(reverse, murdoch, static, K, C, 10, 1, 50) :-
 competing(reverse, anta, _, K, C, 10, 1, 50) :-
     C is 10000 - 1000*K.
 
+%   Three claims compare the static network with the dynamic one, a fourth the
+%   two ways of backing off: World is ratio(R), in which the former have R times
+%   the costs of the latter.
+
+competing(ratio(R), Mechanism, Links, K, C, T, 1, 50) :-
+    competing(thesis, Mechanism, dynamic, K, C0, T0, _, _),
+    (   ( Links == static ; Mechanism == constant )
+    ->  C is R*C0, T is R*20*K
+    ;   C = C0, T = T0
+    ).
+
 %   dense(World, Mechanism, Eligible, Communications, Time, Backoffs,
 %   Interval)
 
@@ -141,6 +152,16 @@ test(all_claims_can_hold, [forall(name(Name)), Failing == []]) :-
     texts(Name, thesis, false, Failing).
 test(each_claim_can_fail, [forall(name(Name)), Holding == []]) :-
     texts(Name, reverse, true, Holding).
+
+test(half_to_twice_is_exact,
+     [ forall(member(R-Held, [0.4999-[], 0.5-[_,_,_,_], 2-[_,_,_,_],
+                              2.0001-[]])),
+       Texts = Held ]) :-
+    texts(figure_7_1_to_7_3, ratio(R), true, All),
+    findall(T, ( member(T, All),
+                 member(Part, ["as on the dynamic", "equally well",
+                               "almost the same trend"]),
+                 sub_string(T, _, _, _, Part) ), Texts).
 
 :- end_tests(allocation_claims).
 
