@@ -35,7 +35,8 @@ typhon_kinds:accepts(post, word, _, none, none).
 typhon_endpoint:received(errand, Errand, _) :-
     thread_self(Me),
     assertz(hook(Errand, Me)),
-    endpoint_afterwards(go(Errand)).
+    endpoint_afterwards(go(Errand)),
+    ( Errand = breaks(_) -> wire_thread_signal(Me, broken) ; true ).
 typhon_endpoint:received(word, Word, _) :-
     thread_self(Me),
     assertz(run(Word, read, Me)).
@@ -54,6 +55,7 @@ go(Errand, How) :-
     act(Errand).
 
 act(quick(_)).
+act(breaks(_)).
 act(waits(Queue, _)) :-
     thread_get_message(Queue, go).
 
@@ -131,6 +133,11 @@ test(frames_are_handled_by_the_reading_thread, T1 == T2) :-
 test(frames_are_handled_by_others_without_a_reader, How == later) :-
     alone(_, endpoint_afterwards(go(quick(1)))),
     run(quick(1), How, _).
+
+test(work_that_a_broken_connection_leaves_is_done_by_others, Hows == [later]) :-
+    alone(Me, ( post(Me, breaks(1)),
+                wait_until(ran(breaks(1)), 5) )),
+    findall(How, run(breaks(1), How, _), Hows).
 
 %   In order; a busy machine may miss one.
 
