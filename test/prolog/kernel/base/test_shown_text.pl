@@ -8,6 +8,7 @@
 :- use_module(library(debug)).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2]).
+:- use_module(library(process), [process_create/3]).
 :- use_module(library(random), [random_member/2]).
 :- use_module(library(readutil), [read_file_to_string/3, read_file_to_terms/3]).
 :- use_module(library(typhon)).
@@ -89,6 +90,50 @@ escaping(Found) :-
               as_printed(Term, Text), \+ is_clean(Text) ),
             Found).
 
+%   classified(-Class, -Code): Code is `hidden` according to the database of
+%   Unicode, or visible, and next to one that is hidden.  Some letters and marks
+%   are shown as nothing.
+
+classified(hidden, Code) :-
+    member(Code, [ 0x34f, 0x115f, 0x1160, 0x17b4, 0x17b5, 0x180b, 0x180c,
+                   0x180d, 0x3164, 0xffa0 ]).
+classified(Class, Code) :-
+    python(Python),
+    atomic_list_concat(
+        [ 'import unicodedata as u',
+          'def category(i): return u.category(chr(i))',
+          'hidden = [i for i in range(0x110000)',
+          '          if category(i) in ("Cc", "Cf", "Zl", "Zp")]',
+          'for i in hidden: print(f"hidden({i}).")',
+          'near = {j for i in hidden for j in (i-1, i+1) if 0 <= j < 0x110000}',
+          'for i in near:',
+          '    if category(i)[0] in "LMNPS" and not 0x180d <= i <= 0x180f:',
+          '        print(f"visible({i}).")'
+        ], '\n', Script),
+    setup_call_cleanup(
+        process_create(Python, ['-c', Script], [stdout(pipe(Out))]),
+        read_term_list(Out, Terms),
+        close(Out)),
+    member(Term, Terms),
+    Term =.. [Class,Code].
+
+read_term_list(In, Terms) :-
+    read(In, Term),
+    (   Term == end_of_file
+    ->  Terms = []
+    ;   Terms = [Term|Rest],
+        read_term_list(In, Rest)
+    ).
+
+%   printable_as(+Class, +Code): Code is not treated as one of Class.
+
+printable_as(Class, Code) :-
+    char_code(Char, Code),
+    (   is_printable(Char)
+    ->  Class == hidden
+    ;   Class == visible
+    ).
+
 :- begin_tests(shown_text).
 
 test(no_message_has_hidden_characters, Found == []) :-
@@ -100,6 +145,9 @@ test(no_error_text_has_hidden_characters, Found == []) :-
               split_string(Text1, "\n", "", [Line|_]),
               Text = Line, \+ is_clean(Text) ),
             Found).
+test(invisible_characters_are_not_printable, Wrong == []) :-
+    findall(Class-Code, ( classified(Class, Code), printable_as(Class, Code) ),
+            Wrong).
 test(letters_stay_readable, Text == "Zo\u00eb \u4e2d\u6587 \U0001F600 \u043c") :-
     shown_text('Zo\u00eb \u4e2d\u6587 \U0001F600 \u043c', Text).
 test(escapes, Text == "a\\nb\\x1B\\[2J\\x202E\\") :-
