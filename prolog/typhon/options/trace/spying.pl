@@ -136,7 +136,6 @@ predicate(Name, Name, _) :-
     atom(Name).
 
 in_module(Module, Name, Arity) :-
-    current_module(Module),
     current_predicate(Module:Name/Arity),
     !.
 in_module(Module, _, _) :-
