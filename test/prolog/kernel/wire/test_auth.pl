@@ -136,6 +136,10 @@ test(changed_hello_is_refused,
 
 invalid(say("GET / HTTP/1.1\r\n\r\n"),
         permission_error(authenticate, peer, protocol)).
+invalid(say(Line), Error) :-            % a line has at most 512 bytes
+    member(Count-Error, [ 512-permission_error(authenticate, peer, protocol),
+                          513-syntax_error(line) ]),
+    format(string(Line), "~`xt~*|\n", [Count]).
 invalid(say(Garbage), syntax_error(line)) :-
     numlist(0, 255, Codes0),
     append([Codes0, Codes0, Codes0], Codes),

@@ -45,11 +45,16 @@ test(invalid_keys,
 
 no_key(Key, N) :-
     member(Key-N, [ _-0, f(x)-0, "text"-0, key-_, key-1.5,
-                    key-9223372036854775808, 'a\000\b'-0 ]).
+                    key-9223372036854775808, key-(-9223372036854775809),
+                    'a\000\b'-0 ]).
 no_key(Key, 0) :-
     format(atom(Key), '~`xt~501|', []).
 no_key(Half, 0) :-
     catch(atom_codes(Half, [0xdc00]), error(_, _), fail).   % fails in 10.1
+
+test(keys_of_64_bits, forall(member(N, [ -9223372036854775808,
+                                         9223372036854775807 ]))) :-
+    durable_key(key, N).
 
 test(other_process_is_locked_out,
      [error(permission_error(open, journal, _))]) :-
