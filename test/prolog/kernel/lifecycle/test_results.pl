@@ -39,6 +39,18 @@ test(agent_whose_process_is_gone_is_lost, Outcome == lost(B)) :-
                  peer_kill(b),
                  wait_until(( peer_do(a, agent_join(Id, Outcome, 0.5)),
                               Outcome \== timeout ), 30) )).
+%   The process that gave the order may end before it reports, so the host does.
+
+test(host_of_a_resumed_agent_reports_it_to_the_home) :-
+    with_peers([a, b],
+               ( peer_host(b, B),
+                 created_on_a([(main :- move(B), receive(_, 0), receive(no))],
+                              Id),
+                 wait_until(peer_do(a, agent_join(Id, failed, 0)), 20),
+                 peer_do(a, agent_send(Id, go)),
+                 wait_until(peer_do(b, agent_property(Id, mailbox([_]))), 10),
+                 peer_do(b, typhon_order_client:order_give(Id, resume, _)),
+                 wait_until(peer_do(a, agent_join(Id, timeout, 0)), 20) )).
 %   gives(-Behaviour, -Clauses, -Result): of an agent of Clauses.
 
 gives(given_result, [(main :- X is 6*7, result(X))], 42).
