@@ -436,6 +436,19 @@ test(hosts_restart_empty_without_a_journal) :-
                        Agent, [host(A)]),
           agent_join(Agent, done, 10) ))).
 
+%   A process that is stopped gets the question, and dies.  It alone knows the
+%   link between its two hosts.
+
+test(process_that_dies_with_a_question_is_asked_again) :-
+    quiet(with_network(mesh(4), [processes(2), restart(true)], Network,
+        ( network_property(Network, edges(Edges)),
+          pids(Network, [Pid|_]),
+          process_kill(Pid, stop),
+          thread_create(network_property(Network, edges(Edges)), Asker),
+          wait_until(typhon_nodes:waiting(Network, 1, _), 10),
+          process_kill(Pid, kill),
+          thread_join(Asker, true) ))).
+
 facts(Host, Facts) :-
     remote(Host, findall(F, sense(F), Facts)).
 
