@@ -31,6 +31,21 @@ equivalent('prolog/typhon/options/cell/cells.pl', give/2, goal,
 equivalent('prolog/typhon/network/log.pl', write_event/4, cut, "!", "true",
            "the server takes the first state that its handler gives").
 
+equivalent('prolog/typhon/network/children.pl', secret_made/1, bound,
+           "32", "33",
+           "a secret may be longer").
+equivalent('prolog/typhon/options/cell/cell_frames.pl', unlike_numbers/3, bound,
+           "7500", "7501",
+           "any character near the middle of a block interrupts its digits").
+equivalent('prolog/typhon/kernel/wire/connection.pl', is_normal_break/1, order,
+           "is_normal_break(Formal) :- memberchk(Formal, [ io_error(_, _), \c
+            socket_error(_, _), syntax_error(truncated_frame) ]), !. \c
+            is_normal_break(Formal) :- harmless(Formal)",
+           "is_normal_break(Formal) :- harmless(Formal). \c
+            is_normal_break(Formal) :- memberchk(Formal, [ io_error(_, _), \c
+            socket_error(_, _), syntax_error(truncated_frame) ]), !",
+           "a condition that holds in either case, whichever is tried first").
+
 equivalent('experiments/sync/metrics.pl', gaps/1, order,
            "gaps([]). gaps([task(_, _, _, _, _, none)]) :- !",
            "gaps([task(_, _, _, _, _, none)]) :- !. gaps([])",
