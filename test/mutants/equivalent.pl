@@ -31,6 +31,12 @@ equivalent('prolog/typhon/options/cell/cells.pl', give/2, goal,
 equivalent('prolog/typhon/network/log.pl', write_event/4, cut, "!", "true",
            "the server takes the first state that its handler gives").
 
+equivalent('prolog/typhon/options/journal/committing.pl', queue_flush/0, order,
+           "queue_flush :- queue(_, _, full), !, wake(now). \c
+            queue_flush :- sig_atomic(commit_or_leave)",
+           "queue_flush :- sig_atomic(commit_or_leave). \c
+            queue_flush :- queue(_, _, full), !, wake(now)",
+           "the thread that wants a commit makes it itself, which takes longer").
 equivalent('prolog/typhon/network/children.pl', secret_made/1, bound,
            "32", "33",
            "a secret may be longer").
@@ -55,6 +61,20 @@ equivalent('experiments/population/metrics.pl', counts/2, order,
            "counts(ended(_), -1). counts(created, 1)",
            "an event of a log, which is ground, matches one of them").
 
+%   bound_argument(File, Predicate, Argument): each caller gives a value there,
+%   so the order of clauses for different values does not matter.
+
+bound_argument('prolog/typhon/kernel/base/monotonic.pl', role/2, 1).
+bound_argument('prolog/typhon/kernel/wire/session.pl', session_to_self/1, 1).
+bound_argument('prolog/typhon/options/fleet/fleet_journal.pl', must_be_open/5, 1).
+bound_argument('prolog/typhon/options/fleet/parking.pl', taken/3, 1).
+bound_argument('prolog/typhon/options/guard/allowed.pl', makes_clause/1, 1).
+bound_argument('prolog/typhon/options/guard/guard_bodies.pl', guard_construct/4, 1).
+bound_argument('prolog/typhon/options/guard/guard_clauses.pl', of_platform/1, 1).
+bound_argument('prolog/typhon/options/journal/sql.pl', sql/3, 1).
+bound_argument('prolog/typhon/options/migration/strategy.pl', choose/6, 1).
+bound_argument('prolog/typhon/options/quotas/quota_enforcer.pl', kept/2, 1).
+
 %!  equivalent_change(+Change, -Reason:string) is semidet.
 
 equivalent_change(Change, "the messages of two terms in another order") :-
@@ -67,6 +87,12 @@ equivalent_change(Change, "single-sided rules of which no goal matches both") :-
     changed_clauses(Change, (Head1 => _), (Head2 => _)),
     maplist(plain_head, [Head1,Head2], [Plain1,Plain2]),
     Plain1 \= Plain2.
+equivalent_change(Change, "clauses for different values of a bound argument") :-
+    Change = change(File, _, _, _, order, Predicate, _),
+    bound_argument(File, Predicate, Argument),
+    changed_clauses(Change, First, Second),
+    maplist(argument_of(Argument), [First, Second], [Value1, Value2]),
+    Value1 \= Value2.
 equivalent_change(Change, Reason) :-
     Change = change(File, _, _, _, Kind, Predicate, _),
     equivalent(File, Predicate, Kind, _, _, _),
@@ -121,6 +147,10 @@ equivalent_change(Change, "a searched list in another order") :-
     text_before(File, Start, Before),
     searched_list(Before, Old).
 
+argument_of(Number, Clause, Value) :-
+    ( Clause = (Head :- _) -> true ; Head = Clause ),
+    arg(Number, Head, Value).
+
 without_cut(Clause) :-
     \+ ( sub_term(Goal, Clause), Goal == ! ).
 
@@ -174,7 +204,8 @@ changed_clauses(change(File, Start, End, _, order, _, _), First, Second) :-
 
 %!  outdated_equivalent(-File) is nondet.
 %
-%   A change that is said to be equivalent is no longer one of File.
+%   A change that is said to be equivalent is no longer one of File, or a
+%   predicate that is said to be called with an argument has no two clauses.
 
 outdated_equivalent(File) :-
     equivalent(File, Predicate, Kind, Old, New, _),
@@ -183,3 +214,8 @@ outdated_equivalent(File) :-
     \+ ( member(Change, Changes),
          Change = change(_, _, _, _, Kind, Predicate, _),
          change_words(Change, Old, New) ).
+outdated_equivalent(File) :-
+    bound_argument(File, Predicate, _),
+    project_file(File, Path),
+    file_changes(Path, Changes),
+    \+ memberchk(change(_, _, _, _, order, Predicate, _), Changes).
