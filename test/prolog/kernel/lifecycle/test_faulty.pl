@@ -244,7 +244,8 @@ test(moved_agent_stays_faulty) :-
          wait_until(maplist(load, [alpha,beta], [0,0]), 10),
          agent_dispose(A),
          joined(A, failed),
-         \+ agent_property(A, state(_)) )).
+         \+ agent_property(A, state(_)),
+         load(beta, 0) )).
 test(refused_move_of_a_faulty_agent, true(L == 0)) :-
     on([alpha,beta-[capacity(0)]],
        ( faulty([(main :- move(alpha), s(1))], A),
