@@ -223,6 +223,14 @@ test(long_answer_is_refused, Formal == resource_error(answer_characters)) :-
                   asked(anna, x, Number),
                   format(string(Long), '~`xt~2001|', []),
                   refused(person_answer(anna, Number, Long), Formal) )).
+test(answer_that_cannot_be_sent_leaves_the_question) :-
+    with_people(with_settings([typhon_mailbox:messages=1000],
+        ( asking(anna, ask(x, _), Agent),
+          asked(anna, x, Number),
+          forall(between(1, 1000, N), agent_send(Agent, N)),
+          refused(person_answer(anna, Number, "yes"),
+                  resource_error(mailbox)),
+          asked(anna, x, Number) ))).
 test(last_twenty_remain_visible, Shown == Expected) :-
     numlist(6, 25, Expected),
     with_people(( asking(anna, ( forall(between(1, 25, N), show(N)) ), Agent),
