@@ -121,7 +121,7 @@ said(Said, _, Out) :-
 test(hosts_with_a_shared_cookie, Said == visited(done, Far)) :-
     shared('TYPHON_COOKIE'=one, 'TYPHON_COOKIE'=one, Said, Far).
 test(hosts_with_different_cookies,
-     Formal = permission_error(authenticate, host, _)) :-
+     true(subsumes_term(permission_error(authenticate, host, _), Formal))) :-
     shared('TYPHON_COOKIE'=one, 'TYPHON_COOKIE'=other, Said, _),
     Said = error(Formal).
 
