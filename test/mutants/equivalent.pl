@@ -98,6 +98,15 @@ equivalent_change(Change, Reason) :-
     equivalent(File, Predicate, Kind, _, _, _),
     change_words(Change, Old, New),
     equivalent(File, Predicate, Kind, Old, New, Reason).
+equivalent_change(Change, "a cut before an error, which leaves no choice") :-
+    Change = change(File, _, End, _, cut, _, _),
+    text_after(File, End, After),
+    split_string(After, "", " \n", [Next|_]),
+    member(Raises, [ throw, existence_error, permission_error, domain_error,
+                     type_error, resource_error, instantiation_error ]),
+    string_concat(",", Goal0, Next),
+    split_string(Goal0, "", " \n", [Goal]),
+    sub_string(Goal, 0, _, _, Raises).
 equivalent_change(Change, "declarations of a study, which are found by name") :-
     Change = change(File, _, _, _, order, Predicate, _),
     of_study(File),
@@ -135,9 +144,7 @@ equivalent_change(Change, "sides of a comparison that has no direction") :-
 equivalent_change(Change, "a value that a study assumes, and reports") :-
     Change = change(File, Start, _, _, bound, fixed/3, _),
     of_study(File),
-    project_file(File, Path),
-    read_file_to_string(Path, Text, [encoding(utf8)]),
-    sub_string(Text, Start, _, 0, After),
+    text_after(File, Start, After),
     once(sub_string(After, Length, _, _, ").\n")),
     sub_string(After, 0, Length, _, Rest),
     once(sub_string(Rest, _, _, _, "assumed(")).
@@ -177,6 +184,11 @@ text_before(File, Start, Before) :-
     project_file(File, Path),
     read_file_to_string(Path, Text, [encoding(utf8)]),
     sub_string(Text, 0, Start, _, Before).
+
+text_after(File, End, After) :-
+    project_file(File, Path),
+    read_file_to_string(Path, Text, [encoding(utf8)]),
+    sub_string(Text, End, _, 0, After).
 
 %   searched_list(+Before, +Old): Before ends in a list, and Old lies in it, in
 %   which memberchk/2 looks for the value of a variable among constants.

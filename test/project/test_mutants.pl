@@ -146,6 +146,12 @@ test(order_of_single_sided_rules_of_other_goals_is_equivalent,
             p(X, _), X \\== c => true.\n\c
             p(_, 1) => true.\n\c
             q(a) => true.\n", Orders).
+test(cut_before_an_error_is_equivalent, Lines == [5,6]) :-
+    tried(cut, ":- module(m, []).\n\c
+            p :- !, throw(x).\n\c
+            p :- !,\n type_error(a, b).\n\c
+            p :- !, q, throw(x).\n\c
+            p :- !.\n", Lines).
 test(no_change_leaves_the_program_as_it_was, [fail]) :-
     changed(_, Texts),
     program(Program),
