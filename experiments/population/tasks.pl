@@ -6,7 +6,7 @@
 
 :- use_module('../sync/metrics',
               [executions/2, from_start/2, out_of_order/2, overlaps/2,
-               task_rows/2]).
+               premature/2, task_rows/2]).
 :- use_module(metrics,
               [again/3, gaps/2, peak/3, populations/3,
                spans/2, until_settled/4]).
@@ -40,6 +40,7 @@ label(span_most, "Longest duration of a task (s)").
 label(gap_least, "Shortest idle time (s)").
 label(gap_most, "Longest idle time (s)").
 label(overlapped, "Overlapped executions").
+label(premature, "Overlaps before all had begun the previous task").
 label(peak_least, "Least peak of a kind of agents").
 label(peak_most, "Greatest peak of a kind of agents").
 label(peak_total, "Greatest number of agents").
@@ -55,6 +56,9 @@ measure(out_of_order, View, Count) :-
 measure(overlapped, View, Count) :-
     overlaps(View.executions, Overlapping),
     length(Overlapping, Count).
+measure(premature, View, Count) :-
+    premature(View.executions, Premature),
+    length(Premature, Count).
 measure(Name, View, Value) :-
     spans(View.rows, Spans),
     extreme(Name, span, Spans, Value).

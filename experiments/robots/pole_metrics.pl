@@ -3,7 +3,6 @@
             host_time/3,                % +Moments, +ArenaTime, -HostTime
             over_limit/3,               % +Tilts, +Limit, -Seconds
             starts_apart/3,             % +Executions, +Task, -Seconds
-            mingled/2,                  % +Executions, -Mingled
             start_rows/2                % +Executions, -Rows
           ]).
 :- use_module(library(aggregate), [aggregate/3, aggregate_all/3]).
@@ -73,22 +72,6 @@ starts_apart(Executions, Task, Seconds) :-
               H^E^member(execution(Task, H, S, E), Executions),
               r(First, Last)),
     Seconds is Last - First.
-
-%!  mingled(+Executions, -Mingled) is det.
-%
-%   Mingled are the executions that began before an earlier task had ended at
-%   all hosts.  An execution that began before the earlier task had begun at all
-%   hosts is an overlap: see overlaps/2 in sync_metrics.
-
-mingled(Executions, Mingled) :-
-    findall(E,
-            ( member(E, Executions),
-              E = execution(Task, _, Start, _),
-              \+ \+ ( member(execution(Earlier, _, _, End), Executions),
-                      Earlier < Task,
-                      End > Start )
-            ),
-            Mingled).
 
 %!  start_rows(+Executions, -Rows) is det.
 %

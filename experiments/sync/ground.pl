@@ -33,6 +33,7 @@ fixed(limit, 2000, assumed("host seconds; runs end long before")).
 
 label(idle, "Idle time between the tasks, in all (s)").
 label(overlaps, "Overlapped executions").
+label(premature, "Overlaps before all had begun the previous task").
 label(tau, "Distinct tasks required at a time, at most (τ)").
 label(total, "Time until all tasks are completed everywhere (s)").
 label(topology, "topology").
@@ -157,10 +158,11 @@ measure(idle, View, Idle) :-
 measure(least_gap, View, Gap) :-
     aggregate_all(min(Idle), ( member(task(_, _, _, _, _, Idle), View.rows),
                                number(Idle) ), Gap).
-measure(overlaps, View, Count) :-
-    maplist(overlaps, View.phases, Lists),
-    append(Lists, Overlapping),
-    length(Overlapping, Count).
+measure(Name, View, Count) :-
+    member(Name, [overlaps, premature]),
+    maplist(Name, View.phases, Lists),
+    append(Lists, Executions),
+    length(Executions, Count).
 measure(tau, View, Tau) :-
     tau_max(View.steps, Tau).
 measure(total, View, Total) :-

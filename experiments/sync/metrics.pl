@@ -4,6 +4,7 @@
             task_rows/2,                % +Executions, -Rows
             idle_time/2,                % +Rows, -Seconds
             overlaps/2,                 % +Executions, -Overlapping
+            premature/2,                % +Executions, -Premature
             out_of_order/2,             % +Executions, -OutOfOrder
             required/5,                 % +Hosts, +Tasks, +Marks, +End,
                                         % -Segments
@@ -13,7 +14,7 @@
             burst/4                     % +Task, +Seconds, +Execs, -Count
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(apply), [foldl/4, maplist/3]).
+:- use_module(library(apply), [foldl/4, include/3, maplist/3]).
 :- use_module(library(assoc),
               [empty_assoc/1, put_assoc/4, del_assoc/4, get_assoc/3,
                assoc_to_values/2]).
@@ -108,17 +109,36 @@ idle_time(Rows, Seconds) :-
 
 %!  overlaps(+Executions, -Overlapping) is det.
 %
-%   The executions that began before an earlier task had begun at all hosts.
+%   The executions that began before an earlier task had ended at all hosts that
+%   execute it: a task should not commence until all hosts have finished the one
+%   before (thesis section 6.1; section 5.6.1 calls tasks that are executed at
+%   the same time overlapped).
 
 overlaps(Executions, Overlapping) :-
     task_rows(Executions, Rows),
-    findall(E, ( member(E, Executions), overlapping(E, Rows) ), Overlapping).
+    include(before_last(end, Rows), Executions, Overlapping).
 
-overlapping(execution(Task, _, Start, _), Rows) :-
-    member(task(Earlier, _, LastStart, _, _, _), Rows),
+%!  premature(+Executions, -Premature) is det.
+%
+%   The overlaps that began before an earlier task had even begun at all hosts
+%   that execute it: agents left it while a host still required it.
+
+premature(Executions, Premature) :-
+    task_rows(Executions, Rows),
+    include(before_last(start, Rows), Executions, Premature).
+
+%   before_last(+Which, +Rows, +Execution): Execution began before the last
+%   start or end of an earlier task.
+
+before_last(Which, Rows, execution(Task, _, Start, _)) :-
+    member(Row, Rows),
+    last(Which, Row, Earlier, Time),
     Earlier < Task,
-    Start < LastStart,
+    Start < Time,
     !.
+
+last(start, task(Task, _, Start, _, _, _), Task, Start).
+last(end,   task(Task, _, _, End, _, _),   Task, End).
 
 %!  out_of_order(+Executions, -OutOfOrder) is det.
 %

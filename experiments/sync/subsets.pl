@@ -20,6 +20,7 @@ fixed(limit, 5000, assumed("host seconds; a run that takes longer fails")).
 label(total, "Time until all tasks are completed (s)").
 label(idle, "Idle time between the tasks of a sequence (s)").
 label(overlaps, "Overlapped executions").
+label(premature, "Overlaps before all had begun the previous task").
 label(missing, "Executions missing").
 label(out_of_order, "Executions out of order").
 
@@ -91,10 +92,10 @@ measure(idle, View, Mean) :-
     sum_list(Idles, Sum),
     Mean is Sum/View.case.sequences.
 measure(Name, View, Count) :-
-    member(Name-Goal, [overlaps-overlaps, out_of_order-out_of_order]),
+    member(Name, [overlaps, premature, out_of_order]),
     findall(E,
             ( member(_-part(_, Executions), View.parts),
-              call(Goal, Executions, Found),
+              call(Name, Executions, Found),
               member(E, Found) ),
             Es),
     length(Es, Count).

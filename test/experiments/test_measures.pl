@@ -271,7 +271,8 @@ in_step(Events) :-
            [10:a:t:begun], Events).
 
 stepped(Own, Measures) :-
-    append([ idle-5, least_gap-0, overlaps-1, tau-2, total-28, burst-3,
+    append([ idle-5, least_gap-0, overlaps-2, premature-1, tau-2,
+             total-28, burst-3,
              later_burst-2, executions-12, missing-1, out_of_order-1 ],
            Own, Measures).
 
@@ -291,8 +292,8 @@ example(Name, [tasks-4], [a, b, c], Events, Measures) :-
 
 example('sync/figure_5_11', [tasks-2, failure-atomic(1, 2, 2)], [a, b],
         Events,
-        [ idle-4.5, least_gap-4.5, overlaps-0, tau-1, total-17, burst-2,
-          later_burst-1, executions-6, missing-0, out_of_order-0,
+        [ idle-4.5, least_gap-4.5, overlaps-0, premature-0, tau-1, total-17,
+          burst-2, later_burst-1, executions-6, missing-0, out_of_order-0,
           healing_time-7.5, failed_at-9.5, failed_by-10, lost-2, lost_hosts-2,
           redone-2, healed_at-17, meanwhile-1, healing_tau-1, later_tau-0 ]) :-
     log_of([ m/1/a/(0-3), m/1/b/(0.5-3.5), m/2/a/(8-11), m/2/b/(10.5-13.5),
@@ -304,8 +305,8 @@ example('sync/figure_5_11', [tasks-2, failure-atomic(1, 2, 2)], [a, b],
 
 example('sync/figure_5_12', [tasks-2, failure-cascaded(1, 2, 2)], [a, b],
         Events,
-        [ idle-7.5, least_gap-3, overlaps-0, tau-2, total-21, burst-2,
-          later_burst-1, executions-7, missing-0, out_of_order-0,
+        [ idle-7.5, least_gap-3, overlaps-0, premature-0, tau-2, total-21,
+          burst-2, later_burst-1, executions-7, missing-0, out_of_order-0,
           healing_time-7, failed_at-12, failed_by-12.5, lost-3, lost_hosts-2,
           redone-3, healed_at-19, meanwhile-0, healing_tau-1, later_tau-0 ]) :-
     log_of([ m/1/a/(0-3), m/1/b/(0.5-3.5), m/2/a/(8-11), m/1/a/(13-14),
@@ -326,12 +327,12 @@ example('sync/beyond_several',
         [hosts-3, tasks-2, sequences-2, share-1, dependent-true], [a, b, c],
         Events,
         [ wanted-12, executions-8, missing-5, total-12, idle-0.5, overlaps-1,
-          out_of_order-1, both-2, early-1 ]) :-
+          premature-1, out_of_order-1, both-2, early-1 ]) :-
     two_sequences(Events).
 example('sync/beyond_selected', [hosts-3, tasks-2, share-1], [a, b, c],
         Events,
         [ wanted-6, executions-5, missing-1, total-9, idle-0, overlaps-1,
-          out_of_order-1 ]) :-
+          premature-1, out_of_order-1 ]) :-
     two_sequences(Events).
 
 %   Three rewards of a full potential, which raise nothing, a penalty, a reward,
@@ -378,7 +379,7 @@ population(Events) :-
                         121.5:a:w:failed(m, 2) ]|Lives], All),
     entries(All, Events).
 
-populated([ missing-1, out_of_order-2, overlapped-2, span_least-1,
+populated([ missing-1, out_of_order-2, overlapped-3, premature-2, span_least-1,
             span_most-14, gap_least-(-7), gap_most-9, peak_least-1,
             peak_most-5, peak_total-9, peaks_out_of_order-3, end-36 ]).
 

@@ -3,9 +3,8 @@
 :- use_module('../../lib/project_studies', [holding/3, invalid_claims/2]).
 :- use_module('../../lib/robot_logs').
 :- use_module(library(plunit)).
-:- use_module(library(apply), [include/3, maplist/3]).
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists)).
-:- use_module(library(yall)).
 :- use_module('../../../experiments/robots/pole_metrics').
 
 /** <module> Metrics of carried poles, on logs made by hand
@@ -75,14 +74,13 @@ worse(in_step-_{started_within:3.5}, 2).
 worse(in_step-_{slowest:7.4}, 3).
 worse(in_step-_{second:21}, 4).
 worse(in_step-_{third:47}, 5).
-worse(in_step-_{early:1}, 6).
 worse(in_step-_{overlaps:1}, 6).
 worse(in_step-_{tau:3}, 7).
 worse(in_step-_{carried:1.1}, 8).
 worse(in_step-_{lying:0}, 8).
 worse(in_step-_{tilt:4.1}, 9).
 worse(in_step-_{apart:9.5}, 10).
-worse(alone-_{early:0}, 11).
+worse(alone-_{overlaps:0}, 11).
 worse(alone-_{tilt:3.9}, 12).
 
 spoilt(Way-More, Points0, [Case-Ms|Points]) :-
@@ -112,15 +110,6 @@ test(never_over_limit, Seconds =:= 0) :-
 test(starts, true(abs(Seconds - 0.6) < 1.0e-6)) :-
     executions(in_step, Executions),
     starts_apart(Executions, 2, Seconds).
-test(no_mingled_executions, Mingled == []) :-
-    executions(in_step, Executions),
-    mingled(Executions, Mingled).
-test(mingled_executions,
-     Mingled == [execution(2, 1, 5, 10), execution(2, 2, 6, 12)]) :-
-    executions(alone, Executions0),
-    include([execution(T, R, _, _)]>>(T =< 2, R =\= 4), Executions0,
-            Executions),
-    mingled(Executions, Mingled).
 
 test(stacked, Rows == [[0, 1, 0], [0, 1, 1], [0, 2, 2], [3, 2, 0]]) :-
     start_rows([ execution(1, a, 0.1, 2), execution(1, b, 0.2, 2),
@@ -152,8 +141,8 @@ test(well_formed, Problems == []) :-
 test(measures) :-
     points([_-Ms|_]),
     forall(member(Name-Value,
-                  [ executions-16, pairs-16, out_of_order-0, early-0,
-                    overlaps-0, tau-1, quickest-5, slowest-8, second-27,
+                  [ executions-16, pairs-16, out_of_order-0, overlaps-0,
+                    premature-0, tau-1, quickest-5, slowest-8, second-27,
                     third-54, tilt-3, tilt_limit-4, over-0, lying-1,
                     started_within-0.6, carried-1.2 ]),
            assertion(abs(Ms.Name - Value) < 1.0e-6)).

@@ -40,6 +40,14 @@ measured(Log, Executions) :-
     from_start(Events0, Events),
     executions(Events, Executions).
 
+%   T1 begins everywhere by 3, and ends by 4; T2 begins by 4, and ends by 6.
+
+nearly_in_step([ execution(1, a, 0, 1), execution(1, c, 1, 2),
+                 execution(1, b, 3, 4), execution(2, a, 2.9, 5),
+                 execution(2, b, 3, 6), execution(2, c, 3.9, 5),
+                 execution(2, d, 4, 5), execution(3, a, 5.9, 7),
+                 execution(3, b, 6, 7) ]).
+
 :- begin_tests(measures).
 
 test(time_begins_with_the_agents, Es == [event(-1, a, w, x),
@@ -81,9 +89,18 @@ test(overlaps,
      Overlaps == [execution(2, a, 2, 3), execution(3, a, 4, 5)]) :-
     measured(ahead, Es),
     overlaps(Es, Overlaps).
-test(start_with_the_last_one_before_does_not_overlap, Overlaps == []) :-
-    overlaps([ execution(1, a, 0, 1), execution(1, b, 3, 4),
-               execution(2, a, 3, 5), execution(2, b, 9, 10) ], Overlaps).
+test(premature, Premature == [execution(2, a, 2, 3), execution(3, a, 4, 5)]) :-
+    measured(ahead, Es),
+    premature(Es, Premature).
+test(overlaps_until_the_last_host_has_finished,
+     Overlaps == [ execution(2, a, 2.9, 5), execution(2, b, 3, 6),
+                   execution(2, c, 3.9, 5), execution(3, a, 5.9, 7) ]) :-
+    nearly_in_step(Es),
+    overlaps(Es, Overlaps).
+test(premature_until_the_last_host_has_begun,
+     Premature == [execution(2, a, 2.9, 5)]) :-
+    nearly_in_step(Es),
+    premature(Es, Premature).
 test(in_order, OutOfOrder == []) :-
     measured(ahead, Es),
     out_of_order(Es, OutOfOrder).
