@@ -75,6 +75,7 @@ shape(star_bus, N, star_bus(Arms, 10)) :- Arms is N // 10.
 shape(ring, N, ring(N)).
 shape(tree, N, tree(N)).
 shape(grid, N, grid(Rows, 10)) :- Rows is N // 10.
+shape(Topology, _, Topology) :- compound(Topology).
 
                 /*******************************
                 *              RUN             *

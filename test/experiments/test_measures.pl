@@ -282,8 +282,10 @@ example(Name, [tasks-4], [a, b, c], Events, Measures) :-
                                  pause-1 ],
              'sync/figure_5_6'-[], 'sync/figure_5_7'-[], 'sync/figure_5_8'-[],
              'sync/figure_5_9'-[], 'sync/study_choices'-[serviced-0.9],
-             'sync/study_demo'-[], 'sync/study_links'-[],
+             'sync/study_demo'-[], 'sync/beyond_guarantee'-[],
+             'sync/study_links'-[],
              'sync/study_onset'-[overlapped-1],
+             'sync/study_long_tasks'-[busy-3, tau_least-0],
              'sync/study_surface'-[second-8, spread-0.9] ]),
     in_step(Events),
     stepped(Own, Measures).

@@ -120,10 +120,11 @@ claims(robots, [study_boxes-6, study_pole-12]).
 claims(sieve, [ beyond_memory-3, beyond_programs-2, beyond_return-6,
                 figure_3_3-6, figure_3_4-5, figure_3_5-5,
                 study_comparisons-12 ]).
-claims(sync, [ beyond_selected-4, beyond_several-7, figure_5_11-28,
-               figure_5_12-8, figure_5_2-6, figure_5_5-35, figure_5_6-18,
-               figure_5_7-19, figure_5_8-4, figure_5_9-12, study_choices-7,
-               study_demo-6, study_links-3, study_onset-3, study_readings-3,
+claims(sync, [ beyond_guarantee-3, beyond_selected-4, beyond_several-7,
+               figure_5_11-28, figure_5_12-8, figure_5_2-6, figure_5_5-35,
+               figure_5_6-18, figure_5_7-19, figure_5_8-4, figure_5_9-12,
+               study_choices-7, study_demo-6, study_links-3,
+               study_long_tasks-5, study_onset-3, study_readings-3,
                study_surface-14 ]).
 
 claims_made(Folder, Counts) :-

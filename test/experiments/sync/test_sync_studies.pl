@@ -23,7 +23,8 @@ a_study(Name, Count) :-
              figure_5_8-1, figure_5_9-8, figure_5_11-4, figure_5_12-2,
              study_choices-16, study_links-9, study_onset-48,
              study_readings-35, study_demo-1, beyond_several-4,
-             beyond_selected-11, study_surface-320 ]).
+             beyond_selected-11, beyond_guarantee-16, study_surface-320,
+             study_long_tasks-4 ]).
 
 :- begin_tests(studies).
 
@@ -151,6 +152,15 @@ made(false, study_surface, Case, [ second-Less, total-Less, overlaps-N,
                                    spread-0 ]) :-
     N = Case.visits,
     Less is -N.
+made(Held, beyond_guarantee, Case, [overlaps-Overlaps, total-Total]) :-
+    (   Held == true
+    ->  Overlaps is ceiling(1 - Case.share),
+        Total is 100*Case.share
+    ;   Overlaps is truncate(Case.share),
+        Total = 100
+    ).
+made(true, study_long_tasks, _, [busy-60, tau_least-0]).
+made(false, study_long_tasks, _, [busy-59, tau_least-1]).
 made(_, Name, _, []) :-
     memberchk(Name, [figure_5_8, study_links, study_demo]).
 made(false, figure_5_11, _, []).
