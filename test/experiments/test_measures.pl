@@ -230,6 +230,12 @@ example('learning/study_light', [size-2], [h], Events, Measures) :-
     learning(Events),
     learnt(Measures).
 
+%   16 vectors, 5 actions: 38,146,972,655 sequences; a single agent.
+
+example('learning/study_bounds', [size-2], [h], Events, Measures) :-
+    learning(Events),
+    learnt([beta_digits-11, gamma_digits-11, theta_digits-1], Measures).
+
 %   Algorithms beyond the thesis: two agents, a clone, and what comes after the
 %   last of the two has reached the goal.
 

@@ -114,7 +114,7 @@ claims(applications, [ study_fire_alarm-5, study_fire_signs-5,
                        study_warehouse-9 ]).
 claims(hierarchy, [beyond_lead-7, beyond_lead_learning-4]).
 claims(learning, [ figure_4_13-5, figure_4_7-16, figure_4_9-34,
-                   study_light-6 ]).
+                   study_bounds-10, study_light-6 ]).
 claims(population, [figure_6_3-9, figure_6_4-14, table_6_1-8]).
 claims(robots, [study_boxes-6, study_pole-12]).
 claims(sieve, [ beyond_memory-3, beyond_programs-2, beyond_return-6,

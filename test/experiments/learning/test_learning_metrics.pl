@@ -2,6 +2,7 @@
 :- use_module('../../lib/common', []).
 :- use_module(library(lists)).
 :- use_module(library(plunit)).
+:- use_module('../../../experiments/learning/complexity').
 :- use_module('../../../experiments/learning/degrees').
 :- use_module('../../../experiments/learning/maze').
 :- use_module('../../../experiments/learning/metrics').
@@ -35,6 +36,35 @@ some_learners(Learners) :-
 
 about(X, Y) :-
     abs(X - Y) < 1.0e-9.
+
+                /*******************************
+                *       BOUNDS (4.3.6)         *
+                *******************************/
+
+:- begin_tests(complexity).
+
+test(section_4_3_6_beta, Beta == 39) :-          % 3 + 9 + 27
+    exhaustive_search(3, 4, Beta).
+test(one_action, Beta == 3) :-
+    exhaustive_search(1, 4, Beta).
+test(maze_of_the_thesis, Digits == 6990) :-      % 10,000 lg 5, less lg 4
+    exhaustive_search(5, 10000, Beta),
+    digits(Beta, Digits).
+test(sharing_of_even_numbers, Times == [2, 6, 10]) :-   % 1, 3, 5 rounds
+    findall(Time, ( member(N, [2, 4, 6]), sharing_time(N, 2, Time) ), Times).
+test(sharing_of_odd_numbers, Times == [0, 3, 7]) :-     % 1 + 2, 3 + 4 rounds
+    findall(Time, ( member(N, [1, 3, 5]), sharing_time(N, 1, Time) ), Times).
+test(section_4_3_6_gamma, Gamma =:= 39 rdiv 4 + 6) :-
+    shared_search(39, 4, 2, Gamma).
+test(no_number_of_agents, error(type_error(_, 0))) :-
+    sharing_time(0, 1, _).
+test(no_time, error(type_error(rational, 0.5))) :-
+    sharing_time(2, 0.5, _).
+test(digits, Counts == [1, 3]) :-
+    findall(Count, ( member(N, [1 rdiv 3, 1999 rdiv 2]),
+                     Q is N, digits(Q, Count) ), Counts).
+
+:- end_tests(complexity).
 
 :- begin_tests(learning_measures).
 

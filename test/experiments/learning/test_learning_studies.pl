@@ -4,6 +4,8 @@
 :- use_module(library(filesex)).
 :- use_module(library(lists)).
 :- use_module(library(plunit)).
+:- use_module(library(yall)).
+:- use_module(library(apply)).
 :- use_module('../../../experiments/engine/cases').
 :- use_module('../../../experiments/engine/picture').
 :- use_module('../../../experiments/engine/run').
@@ -16,6 +18,7 @@ a_study(Name, Count) :-
     member(Name-Count,
            [ 'learning/figure_4_7'-3, 'learning/figure_4_9'-30,
              'learning/figure_4_13'-5, 'learning/study_light'-12,
+             'learning/study_bounds'-5,
              'algorithms/beyond_settings'-4, 'algorithms/beyond_islands'-3,
              'algorithms/beyond_mixed'-6, 'algorithms/beyond_exchange'-2,
              'algorithms/beyond_cloning'-3, 'algorithms/beyond_crews'-12 ]).
@@ -85,6 +88,20 @@ made(Held, 'learning/figure_4_13', Case, [ executions-Executions,
     member(Held-Rest, [ true-[least_degree-0, most_degree-27],
                         false-[least_degree-1, most_degree-40] ]).
 
+made(Held, 'learning/study_bounds', Case,
+     [ executions-Executions, beta_digits-Beta, gamma_digits-Gamma,
+       theta_digits-3 ]) :-
+    bounds_made(Held, Beta, Gamma, Executed),
+    nth1(I, [0.02, 0.04, 0.1, 0.2, 0.5], Case.density),
+    nth1(I, Executed, Executions).
+
+%   bounds_made(-World, -Beta, -Gamma, -Executed): agents share the work without
+%   loss in `divided`, and gain nothing in `alike`.
+
+bounds_made(true,    1004, 3, [195, 110, 90, 80, 70]).
+bounds_made(divided, 1003, 4, [1000, 500, 200, 100, 40]).
+bounds_made(alike,   1003, 4, [100, 100, 100, 100, 100]).
+
 nth_density(Density, I) :-
     I is round(10*Density).
 
@@ -129,6 +146,17 @@ test(hold, [forall(figure(Name)), true(Others == [])]) :-
 test(do_not_hold, [forall(figure(Name)), true(Others == [])]) :-
     made_up(false, Name, Verdicts),
     findall(Text, member(Text-true, Verdicts), Others).
+
+test(bounds_hold, Others == []) :-
+    made_up(true, 'learning/study_bounds', Verdicts),
+    findall(Text, member(Text-false, Verdicts), Others).
+test(each_bound_fails_if_work_is_divided_or_nothing_is_gained,
+     Always == []) :-
+    maplist([World, Verdicts]>>made_up(World, 'learning/study_bounds',
+                                       Verdicts),
+            [divided, alike], [Divided, Alike]),
+    findall(Text, ( member(Text-true, Divided), memberchk(Text-true, Alike) ),
+            Always).
 
 figure(Name) :-
     member(Name, [ 'learning/figure_4_7', 'learning/figure_4_9',
