@@ -1,5 +1,6 @@
 :- payload(genetic, [provides([plan/3, better/2, plans/1])]).
 :- include(confirm).
+:- include(fitness).
 
 /*  A genetic algorithm for measurements unit(Source, Genes, Value): lists of
     genes of one length, and their measured fitness, with noise.
@@ -14,9 +15,6 @@
     member and to measure it again.  Parents are chosen by tournaments; a
     child has each gene from one of them; with a small probability a gene
     mutates to another one known in its place.
-
-    The error of a single measurement may be large: fitness is the mean of all
-    measurements and of the overall average, which counts as one measurement.
 */
 
 members(16).                    % individuals in the population
@@ -38,7 +36,7 @@ planned(Units, Count, Plan) :-
     typhon_prng:chance_hash(Count-Units, Seed),
     typhon_prng:chance_seed(Seed, Chance),
     population(Units, Population),
-    pool(Units, Pool),
+    known_levels(Units, Pool),
     children(Number),
     offspring(Number, Population, Pool, Trials, Chance),
     Population = [_-Fittest|_],
@@ -52,41 +50,9 @@ planned(Units, Count, Plan) :-
 %   population(+Units, -Population): Fitness-Genes, the fittest first.
 
 population(Units, Population) :-
-    findall(Genes-Value, member(unit(_, Genes, Value)-_, Units), Pairs),
-    pairs_values(Pairs, Values),
-    sum_list(Values, Sum),
-    length(Values, Measured),
-    Average is Sum/Measured,
-    keysort(Pairs, Sorted),
-    group_pairs_by_key(Sorted, Groups),
-    findall(Fitness-Genes,
-            ( member(Genes-Found, Groups),
-              fitness(Found, Average, Fitness) ),
-            All),
-    sort(1, @>=, All, Falling),
+    ranked(Units, Ranked),
     members(Most),
-    findall(Member, limit(Most, member(Member, Falling)), Population).
-
-fitness(Values, Average, Fitness) :-
-    sum_list(Values, Sum),
-    length(Values, Count),
-    Fitness is (Sum + Average)/(Count + 1).
-
-%   pool(+Units, -Pool): for each place the genes known there.
-
-pool(Units, Pool) :-
-    findall(Genes, member(unit(_, Genes, _)-_, Units), All),
-    alleles(All, Pool).
-
-alleles([[]|_], Pool) :-
-    !,
-    Pool = [].
-alleles(All, [Genes|Pool]) :-
-    maplist(first, All, Firsts, Rests),
-    sort(Firsts, Genes),
-    alleles(Rests, Pool).
-
-first([First|Rest], First, Rest).
+    findall(Member, limit(Most, member(Member, Ranked)), Population).
 
                 /*******************************
                 *           OFFSPRING          *

@@ -245,6 +245,60 @@ test(crossover_creates_new_settings) :-
 
 :- end_tests(genetic).
 
+:- begin_tests(swarm, [setup(algorithm(swarm, payloads(learning/swarm), []))]).
+
+%   Of the places with numbers, only 1 to 9 are known; x is the best letter.
+
+flown([ p-[1,a,x]-0.9, p-[9,b,y]-0.1, p-[5,c,y]-0.1 ]).
+
+trials(Plan, Trials) :-
+    append(Trials, [use([1,a,x]), again, again, again], Plan),
+    length(Trials, 4).
+
+test(four_steps_and_the_fittest, [nondet]) :-
+    flown(Known),
+    plan(swarm, Known, Plan),
+    trials(Plan, _).
+test(levels_keep_their_places) :-
+    flown(Known),
+    forall(( between(1, 20, _), plan(swarm, Known, Plan),
+             trials(Plan, Trials), member(use([A,B,C]), Trials) ),
+           ( memberchk(A, [1,5,9]), memberchk(B, [a,b,c]),
+             memberchk(C, [x,y]) )).
+test(same_history_same_flight, Plan1 == Plan2) :-
+    flown(Known),
+    algorithm(swarm, payloads(learning/swarm), []),
+    plan(swarm, Known, Plan1),
+    algorithm(swarm, payloads(learning/swarm), []),
+    plan(swarm, Known, Plan2).
+test(particle_flies_on, [true(Plan1 \== Plan2)]) :-
+    flown(Known),
+    plan(swarm, Known, Plan1),
+    plan(swarm, Known, Plan2).
+
+%   A particle that begins at 9 is drawn to the 1 of another agent.
+
+test(drawn_to_the_best_that_others_found, [true(Late < Early)]) :-
+    algorithm(swarm, payloads(learning/swarm), []),
+    findall(p-[N]-Value, ( between(1, 9, N), Value is 0.1 - N/1000 ), Others),
+    plan(swarm, [p-[9]-0.95|Others], _),
+    Told = [p-[1]-0.99, p-[1]-0.99, p-[9]-0.2|Others],
+    findall(Mean, ( between(1, 15, _), plan(swarm, Told, Plan),
+                    mean_trial(Plan, Mean) ),
+            Means),
+    nth1(1, Means, Early),
+    append(_, [A, B, C], Means),
+    Late is (A + B + C)/3.
+
+mean_trial(Plan, Mean) :-
+    length(Trials, 4),
+    append(Trials, _, Plan),
+    findall(X, member(use([X]), Trials), Xs),
+    sum_list(Xs, Sum),
+    Mean is Sum/4.
+
+:- end_tests(swarm).
+
                 /*******************************
                 *          COMPARISON          *
                 *******************************/
@@ -284,5 +338,9 @@ test(genetic_algorithm_beats_random_search) :-
     pages_of(genetic, 3, [1, 2], 200, Genetic),
     pages_of(lottery, 3, [1, 2], 400, Lottery),
     Lottery > 1.2*Genetic.
+test(particle_swarm_beats_random_search) :-
+    pages_of(swarm, 3, [1, 2], 200, Swarm),
+    pages_of(lottery, 3, [1, 2], 400, Lottery),
+    Lottery > 1.2*Swarm.
 
 :- end_tests(settings_found).
