@@ -1,5 +1,7 @@
 :- module(algorithms_printers,
-          [ shortfalls/3                % +Seed, +Solutions, -Shortfalls
+          [ shortfalls/3,               % +Seed, +Solutions, -Shortfalls
+            settings_used/2,            % +Actions, -Settings
+            mean_quality/4              % +Seed, +Hosts, +Settings, -Mean
           ]).
 :- use_module('../../prolog/typhon/kernel/base/prng', []).
 :- use_module(library(lists),
@@ -34,14 +36,34 @@ shortfalls(Seed, Solutions, Shortfalls) :-
             Shortfalls).
 
 shortfall(Seed, Host, Actions, Shortfall) :-
-    retractall(setting(_, _)),
-    assertz(setting(printers, Seed)),
-    factory(Factory),
-    last_settings(Actions, Factory, Settings),
-    atomic_list_concat([Printer|_], @, Host),
-    quality(Printer, Settings, Quality),
+    settings_used(Actions, Settings),
+    mean_quality(Seed, [Host], Settings, Quality),
     known(good, Good),
     Shortfall is max(0, Good - Quality).
+
+%!  settings_used(+Actions, -Settings) is det.
+%
+%   Settings are those of the last page of Actions.
+
+settings_used(Actions, Settings) :-
+    factory(Factory),
+    last_settings(Actions, Factory, Settings).
+
+%!  mean_quality(+Seed, +Hosts, +Settings, -Mean) is det.
+%
+%   Mean is the quality of pages with Settings on the printers of Hosts. Seed
+%   determines the properties of the printers.
+
+mean_quality(Seed, Hosts, Settings, Mean) :-
+    retractall(setting(_, _)),
+    assertz(setting(printers, Seed)),
+    findall(Quality,
+            ( member(Host, Hosts), atomic_list_concat([Printer|_], @, Host),
+              quality(Printer, Settings, Quality) ),
+            Qualities),
+    sum_list(Qualities, Sum),
+    length(Qualities, Count),
+    Mean is Sum/Count.
 
 last_settings([], Settings, Settings).
 last_settings([use(Settings)|Actions], _, Last) :-

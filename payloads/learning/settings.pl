@@ -1,5 +1,6 @@
 :- payload(settings, [provides([ start/2, actions/1, act/3, sensed/2,
                                  weight/3, reached/1, shareable/2 ])]).
+:- include(printer).
 
 /*  Printers that find the settings for good pictures (thesis section 4.1): a
     problem for agents(learning).  Each printer differs a little.
@@ -31,18 +32,6 @@
     and the name of the host determine a printer, so it is the same in every
     execution.
 */
-
-about(noise, 0.04).
-about(good, 0.93).
-about(pages, 4).
-about(difference, 1.0).
-about(printers, 1).
-
-known(Name, Value) :-
-    (   setting(Name, Value0)
-    ->  Value = Value0
-    ;   about(Name, Value)
-    ).
 
 levels(1, [1,2,3,4]).                   % resolution
 levels(2, [draft,text,photo]).          % mode
@@ -133,53 +122,3 @@ shareable([], []).
 unit(sv(Printer, Settings, Quality), Weight0,
      unit(Printer, Settings, Quality)-Weight) :-
     Weight is max(0, Weight0).
-
-                /*******************************
-                *          PRINTERS            *
-                *******************************/
-
-%   The properties of a printer, makes(Density, Heat, Wear): the deviation of
-%   its best density and heat from those of others, and a loss of quality that
-%   no setting compensates.
-
-printer(Name) :-
-    here(Host),
-    atomic_list_concat([Name|_], @, Host).
-
-makes(Printer, makes(Density, Heat, Wear)) :-
-    known(printers, Which),
-    known(difference, Far),
-    typhon_prng:chance_hash(Which-Printer, Seed),
-    typhon_prng:chance_seed(Seed, Chance0),
-    Near is -Far,
-    typhon_prng:chance_uniform(Near, Far, Density, Chance0, Chance1),
-    typhon_prng:chance_uniform(Near, Far, Heat, Chance1, Chance2),
-    typhon_prng:chance_uniform(0.0, 0.03, Wear, Chance2, _).
-
-%   Thick paper and high speed need heat, and pictures need toner: one
-%   setting alone often cannot be improved.
-
-quality(Printer, [Resolution,Mode,Paper,Density,Heat,Speed], Quality) :-
-    makes(Printer, makes(MoreDensity, MoreHeat, Wear)),
-    coarse(Resolution, Loss1),
-    rough(Mode, Wanted, Loss2),
-    dull(Paper, Warm, Loss3),
-    Loss4 is 0.02*(Density - Wanted - MoreDensity)**2,
-    Loss5 is 0.015*(Heat - Warm - 0.5*(Speed - 3) - MoreHeat)**2,
-    Loss6 is 0.02*(Speed - 1),
-    Quality is max(0.0, 1 - Wear - Loss1 - Loss2 - Loss3 - Loss4 - Loss5
-                        - Loss6).
-
-coarse(1, 0.15).
-coarse(2, 0.07).
-coarse(3, 0.0).
-coarse(4, 0.02).
-
-rough(draft, 5, 0.25).
-rough(text,  4, 0.12).
-rough(photo, 6, 0.0).
-
-dull(thin,   2, 0.14).
-dull(plain,  3, 0.09).
-dull(thick,  5, 0.05).
-dull(glossy, 6, 0.0).

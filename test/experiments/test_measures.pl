@@ -261,6 +261,24 @@ example(Name, [agents-2], [h], Events, Measures) :-
            [ agents-2, reached-100, mean-1.5, executions-3, first-2, shared-1,
              time-6, clones-1, most-3 ], Measures).
 
+%   The second settings lose more than a whole page, whatever the printer; three
+%   of four agents carry them.
+
+example('algorithms/beyond_contest', [agents-1], [h], Events,
+        [ found-2, share-75, chosen-0, best-(0.89..1), mean-(0.44..0.5),
+          rank-2 ]) :-
+    Good = [3,photo,glossy,6,6,1],
+    Bad = [1,draft,thin,9,9,5],
+    entries([ 0:h:'learner.1':created, 1:h:'learner.2':created,
+              2:h:'learner.1':converged(1, 1, [use(Good), again]),
+              3:h:'learner.2':converged(1, 1, [use(Good), use(Bad)]),
+              4:h:g:born(host, found(climb, Good)),
+              5:h:g:born(host, found(genetic, Bad)),
+              6:h:g:born(clone, found(genetic, Bad)),
+              7:h:g:born(clone, found(genetic, Bad)),
+              8:h:g:born(clone, found(climb, Good)),
+              9:h:g:died(suppressed, found(climb, Good)) ], Events).
+
                 /*******************************
                 *           CHAPTER 5          *
                 *******************************/

@@ -73,6 +73,9 @@ made('algorithms/beyond_cloning', [group=three_cloning],
 made('algorithms/beyond_cloning', [group=eight],
      [mean-1/20, executions-99/1, most-99/1]).
 
+made('algorithms/beyond_contest', [],
+     [chosen-0.95/0.9, mean-0.94/0.9, best-0.96/0.92, share-51/50]).
+
 made('algorithms/beyond_islands', [population=islands],
      [reached-100/99, pages-9.9/10, mean-9.9/10]).
 made('algorithms/beyond_islands', [population=apart],

@@ -104,7 +104,8 @@ test(all_errors_are_reported) :-
 
 %   claims(Folder, Counts): how many claims each study in a folder has.
 
-claims(algorithms, [ beyond_cloning-3, beyond_crews-7, beyond_exchange-1,
+claims(algorithms, [ beyond_cloning-3, beyond_contest-3, beyond_crews-7,
+                     beyond_exchange-1,
                      beyond_islands-3, beyond_mixed-4, beyond_settings-5 ]).
 claims(allocation, [ beyond_integrated-5, beyond_replacement-6,
                      beyond_sharing-6, beyond_urgent-5, figure_7_1_to_7_3-49,

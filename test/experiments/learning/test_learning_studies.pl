@@ -21,7 +21,7 @@ a_study(Name, Count) :-
              'learning/study_bounds'-5,
              'algorithms/beyond_settings'-4, 'algorithms/beyond_islands'-3,
              'algorithms/beyond_mixed'-6, 'algorithms/beyond_exchange'-2,
-             'algorithms/beyond_cloning'-3, 'algorithms/beyond_crews'-12 ]).
+             'algorithms/beyond_contest'-1, 'algorithms/beyond_cloning'-3, 'algorithms/beyond_crews'-12 ]).
 
 :- begin_tests(learning_studies).
 
