@@ -105,14 +105,15 @@ least_counts([Count-Host|Open0], Graph, Done, [Count|Counts]) :-
 %   Maximum is the least whole potential with which no executions overlap, of
 %   any number of conscientious agents, if no execution takes longer than Hops
 %   migrations, no host refuses an agent, links do not change and no execution
-%   fails.
+%   fails.  Takes time in proportion to the moves, so these are limited.
 %
-%   @error type_error(Type, X)
+%   @error type_error(Type, X), type_error(between(1, 1000000), Penalties)
 
 potential_required(Links, Hops, Theta, Delta, Maximum) :-
     must_be(nonneg, Hops),
     moves_to_all(Links, Moves),
     Penalties is Moves + Hops + 1,
+    must_be(between(1, 1_000_000), Penalties),
     above(1, Penalties, Theta, Delta, Low, High),
     between_bounds(Low, High, Penalties, Theta, Delta, Maximum).
 

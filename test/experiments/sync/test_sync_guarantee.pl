@@ -263,6 +263,9 @@ test(required_is_the_least) :-
     penalties_at_least(Less, 15, 0.2, Few),
     assertion(Enough >= 14 + 9 + 1),
     assertion(Few < 14 + 9 + 1).
+test(network_too_large, error(type_error(_, _))) :-
+    ring(60, Links),
+    potential_required(Links, 9, 15, 0.2, _).
 test(no_overlaps_with_the_potential_required,
      [ forall(member(Settings, [15-0.2, 15-2, 1-0.01])),
        true(Count == 0) ]) :-
