@@ -92,7 +92,7 @@ page_stop :-
 %     - seconds(+Seconds): time for which the links are valid, default 12 hours
 %     - link(+Host): each new host is linked to Host, see link/2
 %     - hosts(+Options): of host_start/2, for the new hosts
-%     - qr(+Boolean): print each link as a QR code, too; needs the program
+%     - qr(+Boolean): print the links as QR codes, too; needs the program
 %       qrencode
 %
 %   @error permission_error(start, people, Port): the server runs already, and
@@ -104,17 +104,18 @@ page_stop :-
 people_start(Names, Options) :-
     people_start(Names, Links, Options),
     forall(member(Name-Link, Links),
-           ( print_message(informational, typhon(person(Name, Link))),
-             print_code(Options, Link) )).
+           print_message(informational, typhon(person(Name, Link)))),
+    ( option(qr(true), Options) -> print_codes(Links) ; true ).
 
-print_code(Options, Link) :-
-    option(qr(true), Options),
-    !,
-    (   qr_code(Link, Lines)
-    ->  print_message(informational, typhon(qr_code(Lines)))
+print_codes(Links) :-
+    (   forall(member(Name-Link, Links), print_code(Name, Link))
+    ->  true
     ;   print_message(warning, typhon(no_qr_code))
     ).
-print_code(_, _).
+
+print_code(Name, Link) :-
+    qr_code(Link, Lines),
+    print_message(informational, typhon(qr_code(Name, Lines))).
 
 people_start(Names, Links, Options) :-
     check_options(people_option, Options),
@@ -170,13 +171,16 @@ prolog:message(typhon(page(Link))) -->
     [ 'The page: ~w'-[Link] ].
 prolog:message(typhon(person(Name, Link))) -->
     [ '~w: ~w'-[Name, Link] ].
-prolog:message(typhon(qr_code(Lines))) -->
+prolog:message(typhon(qr_code(Name, Lines))) -->
+    [ '~w:'-[Name] ],
     qr_lines(Lines).
 prolog:message(typhon(no_qr_code)) -->
-    [ 'QR codes need the program qrencode' ].
+    [ 'No QR codes: install the program qrencode (apt install qrencode)' ].
+
+%   The codes are light on dark, also in terminals with a light background.
 
 qr_lines([]) -->
     [].
 qr_lines([Line|Lines]) -->
-    [ nl, '~w'-[Line] ],
+    [ nl, ansi([fg(white), bg(black)], '~w', [Line]) ],
     qr_lines(Lines).

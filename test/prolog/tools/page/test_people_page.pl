@@ -1,8 +1,11 @@
 :- module(test_people_page, []).
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/fixtures', [capturing/2]).
 :- use_module('../../../lib/pages', [ask/3, got/3, posted/4]).
+:- use_module(library(debug), [assertion/1]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
+:- use_module(library(process), [process_create/3]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(socket), [tcp_connect/3]).
 :- use_module(library(thread), [concurrent_maplist/3]).
@@ -123,6 +126,31 @@ foreign(Link, [Foreign, Large]) :-
 test(links_need_an_address_that_others_reach,
      error(existence_error(option, advertise(_)))) :-
     people_start([anna], _, [port(0), bind('0.0.0.0')]).
+test(links_are_printed_as_qr_codes,
+     [condition(missing([qrencode], [])), nondet]) :-
+    printed(Messages),
+    member(informational-typhon(person(anna, Link)), Messages),
+    member(informational-typhon(qr_code(anna, Lines)), Messages),
+    process_create(path(qrencode), ['-t', 'UTF8', '-m', '2', Link],
+                   [stdout(pipe(Out, [encoding(utf8)]))]),
+    read_string(Out, _, Text),
+    close(Out),
+    atomic_list_concat(Lines, '\n', Printed),
+    assertion(atom_string(Printed, Text)).
+test(missing_qrencode_is_reported_once_and_links_remain, Warnings == [no_qr_code]) :-
+    getenv('PATH', Path),
+    setup_call_cleanup(setenv('PATH', '/nowhere'), printed(Messages),
+                       setenv('PATH', Path)),
+    findall(Name, member(_-typhon(person(Name, _)), Messages), [anna, ben]),
+    findall(Warning, member(warning-typhon(Warning), Messages), Warnings).
+
+printed(Messages) :-
+    no_leaks(setup_call_cleanup(
+                 true,
+                 capturing(people_start([anna, ben], [port(0), qr(true)]),
+                           Messages),
+                 ( people_stop, host_stop(anna), host_stop(ben) ))).
+
 test(other_hosts_have_no_links, error(permission_error(invite, host, desk))) :-
     with_class([anna], _, people_start([desk], _, [])).
 
