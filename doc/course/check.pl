@@ -22,6 +22,7 @@ minute.  The exit status is 0 if every criterion holds.
 :- use_module(checks/ants, []).
 :- use_module(checks/faults, []).
 :- use_module(checks/supervision, []).
+:- use_module(checks/people, []).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(csv), [csv_write_stream/3]).
