@@ -15,7 +15,8 @@
             browser_tabs/2,             % +Browser, -Tabs
             browser_tab/2,              % +Browser, -Tab
             browser_goto_tab/2,         % +Browser, +Tab
-            browser_complaints/2        % +Browser, -Texts
+            browser_complaints/2,       % +Browser, -Texts
+            browser_barriers/2          % +Browser, -Texts
           ]).
 
 /** <module> A Chromium for tests
@@ -25,7 +26,8 @@ Driven by chromedriver, through the W3C WebDriver protocol.
 *Threading*: one thread at a time uses a browser.
 */
 
-:- use_module(common, [free_port/1, wait_until/2, with_tmp_dir/1]).
+:- use_module(common,
+              [free_port/1, project_file/2, wait_until/2, with_tmp_dir/1]).
 :- use_module(library(base64), [base64/2]).
 :- use_module(library(filesex), [delete_directory_contents/1]).
 :- use_module(library(http/http_json), []).
@@ -35,7 +37,7 @@ Driven by chromedriver, through the W3C WebDriver protocol.
 :- use_module(library(process), 
               [ process_create/3, process_kill/1, process_kill/2,
                 process_wait/2 ]).
-:- use_module(library(readutil), [read_line_to_string/2]).
+:- use_module(library(readutil), [read_file_to_string/3, read_line_to_string/2]).
 
 :- meta_predicate with_browser(-, 0), browser_hold(+, +, 0).
 
@@ -335,3 +337,21 @@ browser_complaints(Browser, Texts) :-
               Entry.level == "SEVERE",
               Text = Entry.message ),
             Texts).
+
+%!  browser_barriers(+Browser, -Texts) is det.
+%
+%   What axe-core finds on the page that keeps people from using it: problems
+%   that are serious.
+
+browser_barriers(Browser, Texts) :-
+    (   browser_run(Browser, "return Boolean(globalThis.axe)", true)
+    ->  true
+    ;   project_file('test/lib/axe/axe.min.js', File),
+        read_file_to_string(File, Axe, [encoding(utf8)]),
+        browser_run(Browser, Axe, _)
+    ),
+    browser_run(Browser,
+                "const found = await axe.run(document, {resultTypes: ['violations']});
+                 return found.violations.filter(v => ['serious', 'critical']
+                     .includes(v.impact)).map(v => `${v.id}: ${v.nodes.slice(0, 3)
+                     .map(n => n.html.slice(0, 120)).join(' ')}`)", Texts).

@@ -14,7 +14,6 @@
 :- use_module(library(lists), [member/2, nth1/3]).
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_kill/2]).
-:- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(settings), [set_setting/2]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/tools/page), [page_serve/2]).
@@ -100,22 +99,10 @@ fill(Label, Text) :-
                  field.dispatchEvent(new Event('change', {bubbles: true}));",
                 [Label, Text], _).
 
-%   Accessibility: what axe-core finds that is serious.
-
 accessible :-
     at(Browser, _, _),
-    (   sees("return Boolean(globalThis.axe)", true)
-    ->  true
-    ;   project_file('test/lib/axe/axe.min.js', File),
-        read_file_to_string(File, Axe, [encoding(utf8)]),
-        sees(Axe, _)
-    ),
-    browser_run(Browser,
-                "const found = await axe.run(document, {resultTypes: ['violations']});
-                 return found.violations.filter(v => ['serious', 'critical']
-                     .includes(v.impact)).map(v => `${v.id}: ${v.nodes.slice(0, 3)
-                     .map(n => n.html.slice(0, 120)).join(' ')}`)", Violations),
-    assertion(Violations == []).
+    browser_barriers(Browser, Problems),
+    assertion(Problems == []).
 
                 /*******************************
                 *             TESTS            *
