@@ -5,7 +5,7 @@
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
-:- use_module(library(process), [process_create/3]).
+:- use_module(library(process), [process_create/3, process_kill/2, process_wait/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(socket), [tcp_connect/3]).
 :- use_module(library(thread), [concurrent_maplist/3]).
@@ -189,5 +189,56 @@ outlives(When, Dir) :-
           answer(Link, Second, "2", _),
           agent_result(Agent, "1"+"2", 20) ),
         ( people_stop, host_stop(anna) )).
+
+%   killed(+Dir, +Ports, +Names, -Links, :Goal): a process with the journal in
+%   Dir is killed after Goal.
+
+:- meta_predicate killed(+, +, +, -, 0).
+
+test(answer_counts_once_although_its_process_is_killed,
+     forall(member(When, [before, after]))) :-
+    no_leaks(with_tmp_dir(Dir, survives(When, Dir))).
+
+survives(When, Dir) :-
+    free_port(Port),
+    free_port(Web),
+    format(atom(Host), 'anna@127.0.0.1:~d', [Port]),
+    setup_call_cleanup(
+        host_start(driver),
+        ( killed(Dir, Port-Web, [anna], [_-Link], put(When, Host, Link, First)),
+          killed(Dir, Port-Web, [], [], taken(When, Host, Link, First)) ),
+        host_stop(driver)).
+
+put(When, Host, Link, First) :-
+    agent_create(clauses([ (:- agent(asks, [])),
+                           (main :- ask(x, A), leave(got(A)),
+                                    ask(y, B), leave(got(B)), receive(_-end)) ]),
+                 _, [host(Host)]),
+    waits(Link, First),
+    ( When == after -> answer(Link, First, "1", _{answer:_}) ; true ).
+
+taken(When, Host, Link, First) :-
+    ( When == before -> answer(Link, First, "1", _{answer:_}) ; true ),
+    answer(Link, First, "1", _{error:_}),
+    wait_until(( waits(Link, Next), Next.text == "y" ), 20),
+    answer(Link, Next, "2", _{answer:_}),
+    wait_until(remote(Host, sense(got("2"))), 20),
+    remote(Host, findall(Got, sense(got(Got)), Gots)),
+    assertion(Gots == ["1", "2"]),
+    page(Link, Page),
+    assertion(Page.questions == []).
+
+killed(Dir, Port-Web, Names, Links, Goal) :-
+    project_file('prolog/typhon.pl', Library),
+    format(atom(Start),
+           'host_start(anna, [journal(~q), port(~d), people(true)]), \c
+            people_start(~q, Links, [port(~d)]), \c
+            writeq(Links), writeln(\'.\'), flush_output, thread_get_message(x)',
+           [Dir, Port, Names, Web]),
+    with_swipl(['-g', Start, Library], Pid, _, Out,
+               ( read(Out, Links),
+                 call(Goal),
+                 process_kill(Pid, kill),
+                 process_wait(Pid, _) )).
 
 :- end_tests(people_journal).
