@@ -125,7 +125,7 @@ may_use_by_day('prolog/typhon/language/faults.pl', [get_time]).
 may_use_by_day('prolog/typhon/language/source.pl', [get_time]).
 may_use_by_day('prolog/typhon/options/access.pl', [get_time]).
 may_use_by_day('prolog/typhon/options/keys.pl', [get_time]).
-may_use_by_day('prolog/typhon/options/people/invitations.pl', [get_time]).
+may_use_by_day('prolog/typhon/options/people/person_questions.pl', [get_time]).
 may_use_by_day('prolog/typhon/bridges/fipa/letter.pl', [get_time]).
 may_use_by_day('prolog/typhon/bridges/fipa/managers.pl', [get_time]).
 may_use_by_day('prolog/typhon/tools/problem_text.pl', [call_with_time_limit]).

@@ -15,10 +15,9 @@ person has come.  This is the interface of the layer.
 :- use_module(library(option), [option/2]).
 :- use_module('../kernel/host', [place_offer/2, place_serve/2]).
 :- use_module('people/person_words', []).
-:- reexport('people/invitations',
-            [ invite/3, invited/3, uninvite/1 ]).
 :- reexport('people/person_questions',
-            [ is_person/1, person_answer/3, person_page/2 ]).
+            [ invite/3, invited/2, is_person/1, person_answer/3, person_page/2,
+              uninvite/1 ]).
 
 :- multifile
     typhon_host_parts:begins/3,

@@ -114,7 +114,7 @@ files('options/identity',['options/identity/authors','options/identity/birth','o
 files('options/journal',['options/journal/channel','options/journal/committing','options/journal/hop_ids','options/journal/journaled_agents','options/journal/journaled_tuples','options/journal/recovery','options/journal/sql_tables','options/journal/store','options/journal/units_of_work']).
 files('options/migration',['options/migration/pheromone','options/migration/strategy']).
 files('options/payloads',['options/payloads']).
-files('options/people',['options/people','options/people/invitations','options/people/person_questions']).
+files('options/people',['options/people','options/people/person_questions']).
 files('options/quotas',['options/quotas','options/quotas/quota_agents','options/quotas/quota_enforcer','options/quotas/quota_table','options/quotas/usage']).
 files('options/remote',['options/remote']).
 files('options/single',['options/single']).

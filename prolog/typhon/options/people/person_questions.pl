@@ -1,5 +1,8 @@
 :- module(typhon_person_questions,
           [ is_person/1,                % +Host
+            invite/3,                   % +Host, +Seconds, -Token
+            invited/2,                  % +Token, -Host
+            uninvite/1,                 % +Host
             question_put/5,             % +Host, +Number, +Agent, +What, +Kind
             person_page/2,              % +Host, -Rows
             person_answer/3             % +Host, +Number, +Given
@@ -7,25 +10,26 @@
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(error),
               [domain_error/2, existence_error/2, must_be/2, resource_error/1]).
-:- use_module(library(lists), [member/2, memberchk/2, nth1/3]).
+:- use_module(library(lists), [append/3, member/2, nth1/3, subtract/3]).
+:- use_module(library(sha), [hash_atom/2, sha_hash/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/base/durable',
               [ deferred_act/4, durable/5, durable_assertz/1, durable_closed/0,
-                durable_drop/3, durable_put/4, effects_deferred/0,
-                sync_changes/0, unit_of_work/1 ]).
+                durable_drop/3, durable_put/4, durable_retractall/1,
+                effects_deferred/0, sync_changes/0, unit_of_work/1 ]).
 :- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
 :- use_module('../../kernel/host', [host_option/2]).
 :- use_module('../../kernel/travel', [agent_outcome/2, post/3, post_on/2]).
-:- use_module(invitations, [uninvite/1]).
+:- use_module('../../kernel/wire', [random_hex/2]).
 
-/** <module> Questions that wait for a person
+/** <module> Questions that wait for a person, and tokens of those who answer
 
 With a journal a question is put when the turn of its agent is committed, so no
 question is asked twice; an answer, and the end of its question, are one unit of
 work.  Of several answers to a question the first counts.
 
 *Threading*: any thread.  Exactly one thread retracts a question, and that one
-sends the message.
+sends the message.  A mutex serialises changes of tokens.
 */
 
 :- multifile
@@ -37,12 +41,13 @@ sends the message.
 :- setting(characters, positive_integer, 2000,
            "Characters of the answer of a person, at most").
 
-:- dynamic question/6.                  % Number, N, Host, Agent, What, Kind
+:- dynamic
+    question/6,                         % Number, N, Host, Agent, What, Kind
+    invitation/3.                       % Host, Hash, Until: as in get_time/1
 
 :- durable(question, Number, N, asked(Host, Agent, What, Kind),
            question(Number, N, Host, Agent, What, Kind)).
-
-most_shown(20).
+:- durable(invitation, Host, 0, Hash-Until, invitation(Host, Hash, Until)).
 
                 /*******************************
                 *            HOSTS             *
@@ -72,6 +77,41 @@ answer_none(Agent, Number) :-
 
 is_person(Host) :-
     host_option(Host, people(true)).
+
+%!  invite(+Host, +Seconds, -Token:atom) is det.
+%!  uninvite(+Host) is det.
+%
+%   Token, of 128 random bits, is valid for Seconds, and replaces an earlier
+%   token for Host; no token is valid for Host any more.  Only the hash of a
+%   token is kept, also in journals and saved networks.
+
+invite(Host, Seconds, Token) :-
+    random_hex(16, Token),
+    hash(Token, Hash),
+    get_time(Now),
+    Until is Now+Seconds,
+    with_mutex(typhon_invitations,
+               ( durable_retractall(invitation(Host, _, _)),
+                 durable_assertz(invitation(Host, Hash, Until)) )).
+
+uninvite(Host) :-
+    with_mutex(typhon_invitations, durable_retractall(invitation(Host, _, _))).
+
+%!  invited(+Token:atom, -Host) is semidet.
+%
+%   Token is valid for Host now.  The comparison is one of hashes, so its time
+%   tells nothing about valid tokens.
+
+invited(Token, Host) :-
+    hash(Token, Hash),
+    invitation(Host, Hash, Until),
+    !,
+    get_time(Now),
+    Now < Until.
+
+hash(Token, Hash) :-
+    sha_hash(Token, Bytes, [algorithm(sha256), encoding(utf8)]),
+    hash_atom(Bytes, Hash).
 
                 /*******************************
                 *           QUESTIONS          *
@@ -108,12 +148,12 @@ put(Host, Number, Agent, What, Kind) :-
     durable_assertz(question(Number, _, Host, Agent, What, Kind)),
     ( Kind == shown -> hide_oldest(Host) ; true ).
 
+%   The last twenty remain visible.
+
 hide_oldest(Host) :-
-    most_shown(Most),
     findall(Number, question(Number, _, Host, _, _, shown), Numbers),
-    length(Numbers, Count),
-    (   Count > Most,
-        Numbers = [Oldest|_]
+    length(Last, 20),
+    (   append([Oldest|_], Last, Numbers)
     ->  unanswered(Oldest, none),
         hide_oldest(Host)
     ;   true
@@ -178,10 +218,10 @@ answer_of(text, What, Given, Answer) :-
 
 must_be_number(Given, Number) :-
     split_string(Given, "", " ", [Text]),
-    (   string_length(Text, Length),
+    string_codes(Text, Codes),
+    (   subtract(Codes, `0123456789+-.eE`, []),
+        length(Codes, Length),
         Length =< 40,
-        string_codes(Text, Codes),
-        \+ ( member(Code, Codes), \+ memberchk(Code, `0123456789+-.eE`) ),
         catch(number_string(Number, Text), error(_, _), fail)
     ->  true
     ;   domain_error(number, Given)

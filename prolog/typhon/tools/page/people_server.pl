@@ -4,7 +4,7 @@
             people_end/0,
             qr_code/2                   % +Link, -Lines
           ]).
-:- use_module(library(apply), [maplist/3]).
+:- use_module(library(apply), [maplist/3, partition/4]).
 :- use_module(library(error),
               [domain_error/2, existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(lists), [member/2]).
@@ -15,7 +15,7 @@
 :- use_module('../../kernel/host', [host/3, host_start/2]).
 :- use_module('../../kernel/agent', [agent_name/3]).
 :- use_module('../../options/people',
-              [ invite/3, invited/3, is_person/1, person_answer/3,
+              [ invite/3, invited/2, is_person/1, person_answer/3,
                 person_page/2, uninvite/1 ]).
 :- use_module('../administration', [link/2]).
 :- use_module('../../bridges/common',
@@ -33,7 +33,7 @@ host of that person alone:
   | {"ask": "page"}                          | the questions, see below       |
   | {"do": "answer", "number": N, "answer": A} | answers, then as the first    |
 
-    {"name": Host, "seconds": S, "questions": [Question, ...],
+    {"name": Host, "questions": [Question, ...],
      "shown": [{"number": N, "agent": Name, "text": Text}, ...]}
     Question: {"number": N, "agent": Name, "text": Text,
                "kind": "text", "number" or "choice", "choices": [Text, ...]}
@@ -150,16 +150,16 @@ serve(In, Request) :-
     memberchk(path(Path), Request),
     (   request_own(Request),
         atomic_list_concat(['', Token, Name], /, Path),
-        invited(Token, Host, Seconds),
+        invited(Token, Host),
         is_person(Host)
-    ->  reply(Name, Host-Seconds, In, Request)
+    ->  reply(Name, Host, In, Request)
     ;   refuse(403, 'This link is not valid, or no longer: ask for a new one')
     ).
 
-reply(ask, Person, In, Request) :-
+reply(ask, Host, In, Request) :-
     !,
     setting(answer_bytes, Most),
-    json_reply(In, Request, Most, typhon_people_server:answer(Person)).
+    json_reply(In, Request, Most, typhon_people_server:answer(Host)).
 reply(Name, _, _, Request) :-
     (   memberchk(method(get), Request),
         file_of(Name, Served),
@@ -169,14 +169,12 @@ reply(Name, _, _, Request) :-
     ).
 
 file_of('', 'people.html').
-file_of('people.js', 'people.js').
-file_of('people.css', 'people.css').
-file_of('views.css', 'views.css').
-file_of('icon.svg', 'icon.svg').
+file_of(Name, Name) :-
+    memberchk(Name, ['people.js', 'people.css', 'views.css', 'icon.svg']).
 
 :- public answer/3.
 
-answer(Host-Seconds, Message, Page) :-
+answer(Host, Message, Page) :-
     (   get_dict(do, Message, What)
     ->  ( What == "answer" -> true ; domain_error(person_order, What) ),
         field(number, Message, Number0),
@@ -186,7 +184,7 @@ answer(Host-Seconds, Message, Page) :-
         person_answer(Host, Number, Given)
     ;   true
     ),
-    page(Host, Seconds, Page).
+    page(Host, Page).
 
 field(Key, Message, Value) :-
     (   get_dict(Key, Message, Value0)
@@ -194,43 +192,35 @@ field(Key, Message, Value) :-
     ;   existence_error(page_field, Key)
     ).
 
-page(Host, Seconds, _{name:Name, seconds:Seconds, questions:Questions,
-                      shown:Shown}) :-
+page(Host, _{name:Name, questions:Questions, shown:Shown}) :-
     atom_string(Host, Name),
     person_page(Host, Rows),
-    findall(Dict, ( member(Row, Rows), row(Row, shown, Dict) ), Shown),
-    findall(Dict, ( member(Row, Rows), row(Row, asked, Dict) ), Questions).
+    partition(is_note, Rows, Notes, Asked),
+    maplist(row, Notes, Shown),
+    maplist(row, Asked, Questions).
 
-row(asked(Number, Agent, What, Kind), Of, Dict) :-
-    ( Kind == shown -> Of = shown ; Of = asked ),
+is_note(asked(_, _, _, shown)).
+
+row(asked(Number, Agent, What, Kind), Dict) :-
+    form(Kind, What, Plain, Pairs),
     setting(text_characters, Longest),
-    atom_string(Number, NumberText),
-    agent_text(Agent, By),
-    form(Kind, What, Longest, Plain, Pairs),
     text(Longest, Plain, Text),
-    dict_create(Dict, _, [number-NumberText, agent-By, text-Text|Pairs]).
+    ( agent_name(Agent, Name, _) -> atom_string(Name, By) ; By = "" ),
+    dict_create(Dict, _, [number-Number, agent-By, text-Text|Pairs]).
 
-%   form(+Kind, +What, +Longest, -Text, -Pairs): Text is the question, or what is
-%   shown, and Pairs say which form it needs.
+%   form(+Kind, +What, -Text, -Pairs): Text is the question, or what is shown,
+%   and Pairs say which form it needs.
 
-form(shown, What, _, What, []).
-form(text, What, _, Text, [kind-Kind]) :-
-    (   subsumes_term(number(_), What)
-    ->  What = number(Text),
-        Kind = "number"
-    ;   Text = What,
-        Kind = "text"
-    ).
-form(choice(Choices), What, Longest, What, [kind-"choice", choices-Texts]) :-
+form(shown, What, What, []).
+form(text, What, Text, [kind-"number"]) :-
+    subsumes_term(number(_), What),
+    !,
+    What = number(Text).
+form(text, What, What, [kind-"text"]).
+form(choice(Choices), What, What, [kind-"choice", choices-Texts]) :-
+    setting(text_characters, Longest),
     Short is max(10, Longest//10),
     maplist(text(Short), Choices, Texts).
-
-agent_text(Agent, Text) :-
-    (   Agent == none
-    ->  Text = ""
-    ;   agent_name(Agent, Name, _),
-        atom_string(Name, Text)
-    ).
 
 %   text(+Longest, +Term, -Text): texts as they are, other terms as written.
 

@@ -215,7 +215,10 @@ put(When, Host, Link, First) :-
                                     ask(y, B), leave(got(B)), receive(_-end)) ]),
                  _, [host(Host)]),
     waits(Link, First),
-    ( When == after -> answer(Link, First, "1", _{answer:_}) ; true ).
+    (   When == after
+    ->  answer(Link, First, "1", _{answer:_})
+    ;   remote(Host, leave(committed))  % and all before it
+    ).
 
 taken(When, Host, Link, First) :-
     ( When == before -> answer(Link, First, "1", _{answer:_}) ; true ),
