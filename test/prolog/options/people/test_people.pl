@@ -231,6 +231,13 @@ test(answer_that_cannot_be_sent_leaves_the_question) :-
           refused(person_answer(anna, Number, "yes"),
                   resource_error(mailbox)),
           asked(anna, x, Number) ))).
+test(question_counts_as_what_an_agent_says, Outcome = raised(error(resource_error(cells), _))) :-
+    numlist(1, 200, Long),
+    no_leaks(setup_call_cleanup(
+                 host_start(anna, [people(true), quota([cells(100)])]),
+                 capturing(( asking(anna, person_ask(Long, text, _), Agent),
+                             agent_join(Agent, Outcome, 20) ), _),
+                 host_stop(anna))).
 test(last_twenty_remain_visible, Shown == Expected) :-
     numlist(6, 25, Expected),
     with_people(( asking(anna, ( forall(between(1, 25, N), show(N)) ), Agent),
