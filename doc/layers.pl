@@ -13,6 +13,8 @@
   - an import that is not used, in any file of the tree, or of a file that is
     not there;
   - an export of a module or of an interface that no module uses;
+  - a file below prolog/typhon that belongs to no layer; `index` says so, too,
+    since what it has on demand would not be found;
   - an import against the layers: a module imports from its own folder,
     from kernel/base, and from the interfaces of lower layers, but an option
     from no other;
@@ -44,7 +46,7 @@ status 1 if one is exceeded.
 :- use_module(library(main), [main/0]).
 :- use_module(layers/check).
 :- use_module(layers/figures).
-:- use_module(layers/index, [write_index/0]).
+:- use_module(layers/index, [layer_problem/1, write_index/0]).
 :- use_module(layers/kinds, [write_kinds/0]).
 :- use_module(layers/picture).
 :- use_module(layers/tree, [read_tree/0]).
@@ -59,16 +61,11 @@ main(Argv) :-
 
 do(check) :-
     read_tree,
-    findall(Problem, problem(Problem), Problems0),
-    sort(Problems0, Problems),
-    forall(member(Problem, Problems), report(Problem)),
-    (   Problems == []
-    ->  true
-    ;   halt(1)
-    ).
+    halt_on(problem).
 do(index) :-
     read_tree,
-    write_index.
+    write_index,
+    halt_on(layer_problem).
 do(kinds) :-
     read_tree,
     write_kinds.
@@ -78,6 +75,17 @@ do(picture) :-
 do(figures) :-
     read_tree,
     (   figures
+    ->  true
+    ;   halt(1)
+    ).
+
+%   halt_on(:Problem): with status 1, after a report, if call(Problem, P).
+
+halt_on(Of) :-
+    findall(Problem, call(Of, Problem), Problems0),
+    sort(Problems0, Problems),
+    forall(member(Problem, Problems), report(Problem)),
+    (   Problems == []
     ->  true
     ;   halt(1)
     ).

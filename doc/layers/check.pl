@@ -4,7 +4,7 @@
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2, nth1/3]).
-:- use_module(index, [index_problem/1]).
+:- use_module(index, [index_problem/1, layer_problem/1]).
 :- use_module(kinds, [kinds_problem/1]).
 :- use_module(loaded, [loaded_problem/1]).
 :- use_module(parts, [parts_problem/1]).
@@ -79,6 +79,8 @@ problem(stray_comment_end(File)) :-
     size(File, '*/'/0, _, _).
 problem(Problem) :-
     seam_problem(Problem).
+problem(Problem) :-
+    layer_problem(Problem).
 problem(Problem) :-
     index_problem(Problem).
 problem(Problem) :-
@@ -305,6 +307,8 @@ says(not_handled(Module, Form, Term), 'prolog/typhon/kernel/wire/kinds.pl: no \c
 says(stale_kinds, 'doc/wire.md: its table of kinds is not what it is to be: run \c
      doc/layers.pl -- kinds', []).
 says(stale_index(F), '~w: is not what it is to be: run doc/layers.pl -- index',
+     [F]).
+says(no_layer(F), '~w: belongs to no layer, see layers/1 in doc/layers/tree.pl',
      [F]).
 says(needs_part(F, Used, Part), '~w: needs ~w of the part ~w, which may be \c
      left out, see app/packaging/parts.pl', [F, Used, Part]).

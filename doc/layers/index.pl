@@ -1,5 +1,6 @@
 :- module(layers_index,
-          [ index_problem/1,            % -Problem
+          [ layer_problem/1,            % -Problem
+            index_problem/1,            % -Problem
             index_file/1,               % -File
             write_index/0
           ]).
@@ -43,7 +44,18 @@ indexed(typhon_store:backend_place/4, journal,
 indexed(typhon_durable:durable/5, durable, durable(Kind, _, _, _, _), Kind).
 indexed(typhon_durable:durable/6, durable, durable(Kind, _, _, _, _, _), Kind).
 
+%!  layer_problem(-Problem) is nondet.
 %!  index_problem(-Problem) is nondet.
+%
+%   A file stands beside the layers, so the index leaves out its hooks and
+%   settings; the index is not up to date.
+
+layer_problem(no_layer(File)) :-
+    inside('prolog/typhon/', Prefix),
+    tree_file(File),
+    atom_concat(Prefix, _, File),
+    \+ layer_file(File, _),
+    \+ face(File).
 
 index_problem(stale_index(File)) :-
     index_file(File),

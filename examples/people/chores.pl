@@ -1,16 +1,15 @@
 % People are the robots of an allocation; two chores find whom they need:
-%     swipl examples/people/chores.pl anna ben carla
+%     swipl examples/people/chores.pl -- anna ben carla
 % Options are those of class.pl.
 
 :- use_module('../../prolog/typhon').   % library(typhon), once installed
 :- use_module(agents(allocation/operator)).
+:- use_module(start).
 :- initialization(main, main).
 
 main :-
     current_prolog_flag(argv, Argv),
-    argv_options(Argv, Names, Options),
-    host_start(desk),
-    people_start(Names, [link(desk)|Options]),
+    begin(Argv, Names),
     maplist(profile, Names, Profiles),
     maplist(robot, Names, Profiles),
     chore(wipe, [1-[tall]], "Please wipe the board.", Wipe),
@@ -18,10 +17,7 @@ main :-
     forall(member(Name-Agent, [wipe-Wipe, carry-Carry]),
            ( agent_join(Agent, done, inf),
              format("~w: done~n", [Name]) )),
-    format("Press Enter to end~n"),
-    read_line_to_string(user_input, _),
-    forall(member(Host, [desk|Names]), host_stop(Host)),
-    people_stop.
+    finish(Names).
 
 %   Each person says what an allocator may ask for.
 

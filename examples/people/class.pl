@@ -1,8 +1,9 @@
 % A class votes, elects a speaker and sorts; people answer by their links:
-%     swipl examples/people/class.pl anna ben carla
+%     swipl examples/people/class.pl -- anna ben carla
 % With --bind=0.0.0.0 --advertise=ADDRESS also by phones, and with --qr.
 
 :- use_module('../../prolog/typhon').   % library(typhon), once installed
+:- use_module(start).
 :- initialization(main, main).
 
 :- prolog_load_context(directory, Dir),
@@ -10,21 +11,16 @@
 
 main :-
     current_prolog_flag(argv, Argv),
-    argv_options(Argv, Names, Options),
-    class(Names, Options),
+    begin(Argv, Names),
+    ring(Names),
     vote,
     elect(Names),
     order,
-    format("Press Enter to end~n"),
-    read_line_to_string(user_input, _),
-    forall(member(Host, [desk|Names]), host_stop(Host)),
-    people_stop.
+    finish(Names).
 
 %   The fact next(Host) makes a ring of the hosts of the people.
 
-class(Names, Options) :-
-    host_start(desk),
-    people_start(Names, [link(desk)|Options]),
+ring(Names) :-
     Names = [First|Rest],
     append(Rest, [First], Nexts),
     maplist(followed_by, Names, Nexts).

@@ -26,7 +26,7 @@ run_in(Dir, Example, Given, Last, Lines) :-
     current_prolog_flag(executable, Swipl),
     setup_call_cleanup(
         ( open(Output, write, Out),
-          process_create(Swipl, [Program, anna, ben, carla, '--port=0'],
+          process_create(Swipl, [Program, --, anna, ben, carla, '--port=0'],
                          [ stdin(pipe(In)), stdout(stream(Out)),
                            stderr(stream(Out)), process(Pid) ]) ),
         ( wait_until(links(Output, Links), 30),
