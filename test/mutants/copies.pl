@@ -63,6 +63,8 @@ write_in_copy(Copy, File, Text) :-
 %   failed, or killed(Reason): `hangs`, `ends(Status)` or the problem of a
 %   suite.
 
+%   The limit is a soft one: a hard one keeps cells from setting their own.
+
 suite_in_copy(Copy, Suite, limits(Processor, Seconds), Result) :-
     directory_file_path(Copy, 'test/suite.pl', Runner),
     directory_file_path(Copy, Suite, File),
@@ -71,7 +73,7 @@ suite_in_copy(Copy, Suite, limits(Processor, Seconds), Result) :-
     catch(delete_file(Results), error(_, _), true),
     suite_mark(Suite, Mark),
     format(atom(Line),
-           'ulimit -t ~d; exec swipl --on-error=print --on-warning=print "$0" -- "$1" "$2" > "$3" 2>&1',
+           'ulimit -S -t ~d; exec swipl --on-error=print --on-warning=print "$0" -- "$1" "$2" > "$3" 2>&1',
            [Processor]),
     process_create(path(bash),
                    [ '-c', Line, file(Runner), file(File), file(Results),

@@ -85,11 +85,20 @@ term_of(In) :-
     ).
 
 waits_for_ever(Result, Dir) :-
+    suite_of(Dir, ":- thread_get_message(never).\n", 1, Result).
+
+%   As cells do.
+
+limits_itself(Result, Dir) :-
+    suite_of(Dir, ":- shell('prlimit --cpu=1000 true', Status), halt(Status).\n",
+             60, Result).
+
+suite_of(Dir, Text, Seconds, Result) :-
     directory_file_path(Dir, test, Tests),
     make_directory_path(Tests),
     directory_file_path(Tests, 'suite.pl', Runner),
-    write_file(Runner, ":- thread_get_message(never).\n"),
-    suite_in_copy(Dir, 'any.pl', limits(10, 1), Result).
+    write_file(Runner, Text),
+    suite_in_copy(Dir, 'any.pl', limits(10, Seconds), Result).
 
 :- begin_tests(mutants).
 
@@ -129,6 +138,9 @@ test(changed_program_is_a_program_with_as_many_lines, Faults == []) :-
             Faults).
 test(suite_that_waits_for_ever_is_ended, Result == killed(hangs)) :-
     with_tmp_dir(waits_for_ever(Result)).
+test(suite_may_start_cells,
+     [condition(missing([cells], [])), Result == killed(ends(exit(0)))]) :-
+    with_tmp_dir(limits_itself(Result)).
 test(equivalent_changes_are_still_possible, Outdated == []) :-
     findall(File, outdated_equivalent(File), Outdated).
 test(order_of_messages_is_equivalent, Orders == [4,6]) :-
