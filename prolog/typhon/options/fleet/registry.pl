@@ -1,13 +1,13 @@
 :- module(typhon_registry, []).
 :- use_module(library(lists), [append/2, append/3, member/2]).
-:- use_module(library(option), [option/3]).
+:- use_module(library(option), [option/2, option/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/agent',
-              [agent_here/5, agent_home_endpoint/2, agent_on/2, life_hops/2]).
+              [agent_here/5, agent_on/2, life_hops/2]).
 :- use_module('../../kernel/base/bounds', [bounded/3]).
 :- use_module('../../kernel/base/monotonic', [deadline/2, monotonic_time/1]).
 :- use_module('../../kernel/host', [host/3]).
-:- use_module(engine, [engine/3, engine_key/3, engine_script/4]).
+:- use_module(engine, [engine_script/4]).
 :- use_module(members, [fleet_host/3, fleet_joined/2]).
 
 /** <module> Where the agents of a fleet are, and how they ended
@@ -144,10 +144,8 @@ end_text(Outcome, Results, Text) :-
 %   asked(+Kind, +Id, -Text): what some fleet of this process knows.
 
 asked(Kind, Id, Text) :-
-    agent_home_endpoint(Id, Home),
     fleet_joined(Fleet, _),
-    engine_key(Fleet, [Kind,Home], Key),
-    engine(Fleet, hget(Key, Id), Text),
+    engine_script(Fleet, known, [Kind,Id], Text),
     !.
 
 typhon_whereabouts:known_at(Id, Address) :-

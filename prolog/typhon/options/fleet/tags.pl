@@ -11,7 +11,7 @@
 :- use_module('../../kernel/base/options', [check_options/2]).
 :- use_module('../../kernel/host',
               [ address_parts/3, host/3, host_address/2, host_neighbours/2 ]).
-:- use_module(engine, [engine/3, engine_key/3, engine_script/4]).
+:- use_module(engine, [engine_script/4]).
 :- use_module(members, [fleet_joined/2, must_be_fleet/1]).
 
 /** <module> Hosts of a fleet, by their tags
@@ -105,9 +105,8 @@ machine(Address, Machine) :-
 
 known(Fleet, Tags, Hosts) :-
     engine_script(Fleet, hosts, Tags, Rows),
-    (   Rows = ["unknown",Tag0]
-    ->  atom_string(Tag, Tag0),
-        no_tag(Fleet, Tag)
+    (   Rows = ["unknown",Tag,Tags0]
+    ->  no_tag(Fleet, Tag, Tags0)
     ;   findall(host(Host, Load, State),
                 ( member([Host0,Load0,State0], Rows),
                   atom_string(Host, Host0),
@@ -116,12 +115,11 @@ known(Fleet, Tags, Hosts) :-
                 Hosts)
     ).
 
-no_tag(Fleet, Tag) :-
-    engine_key(Fleet, [tags], Key),
-    engine(Fleet, smembers(Key), Texts),
+no_tag(Fleet, Tag0, Tags0) :-
     retractall(seen(Fleet, _)),
-    forall(member(Text, Texts),
+    forall(member(Text, Tags0),
            ( atom_string(Known, Text), assertz(seen(Fleet, Known)) )),
+    atom_string(Tag, Tag0),
     existence_error(tag, Tag).
 
                 /*******************************

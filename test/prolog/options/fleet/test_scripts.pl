@@ -162,7 +162,7 @@ beat_answer([Status0, Parked, Orphans0], beat(Status, Parked, Orphans)) :-
                    atom_string(J, J0) ),
             Orphans).
 
-hosts_answer(["unknown", Tag0], unknown(Tag)) :-
+hosts_answer(["unknown", Tag0, _], unknown(Tag)) :-
     !,
     atom_string(Tag, Tag0).
 hosts_answer(Rows0, rows(Rows)) :-

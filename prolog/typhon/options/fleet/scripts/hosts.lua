@@ -1,10 +1,11 @@
 -- hosts [tag ...]: {{address, load, 'up' or 'away'} ...} of the hosts that have
--- all these tags; {'unknown', tag} if no host ever had one of them.
+-- all these tags; {'unknown', tag, known} if no host ever had one of them, with
+-- the list of all tags.
 
 local now, out = clock(), {}
 for i = 2, #ARGV do
   if call('SISMEMBER', p..'tags', ARGV[i]) == 0 then
-    return {'unknown', ARGV[i]}
+    return {'unknown', ARGV[i], call('SMEMBERS', p..'tags')}
   end
 end
 local rows = call('ZRANGE', p..'tag:'..(ARGV[2] or ''), 0, -1, 'WITHSCORES')
