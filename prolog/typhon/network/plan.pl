@@ -216,7 +216,9 @@ elsewhere(processes(P)) :-
 elsewhere(machines([_|_])).
 elsewhere(start(How)) :-
     How \== local.
-elsewhere(fleet(_)).
+elsewhere(fleet(Fleet)) :-
+    fleet_options(Fleet, Joins),
+    \+ memberchk(engine(modelled), Joins).
 
 seeded(Options, Seed, Options) :-
     option(seed(Seed), Options),

@@ -53,7 +53,9 @@ This is the interface of the layer; its modules are loaded when they are used.
 %   fleet(Fleet) are known to all members from now on.  Options:
 %
 %     - redis(Host:Port): the engine; or sentinel(Name) and sentinels(List), the
-%       addresses of sentinels that know it
+%       addresses of sentinels that know it; or engine(modelled), in this process,
+%       for hosts in virtual time, each of which stands for a process: without
+%       journals, watches, queues of work, fleet_overview/3 and fleet_park_send/2
 %     - user(User), password(Password): default user is `default`
 %     - tls(true), with cacert(File), key(File) and cert(File); the name of the
 %       server is not compared with its certificate
@@ -68,6 +70,8 @@ This is the interface of the layer; its modules are loaded when they are used.
 %
 %   @error permission_error(join, fleet, Fleet): it is a member already
 %   @error existence_error(option, Option): `redis`, or a file for TLS
+%   @error permission_error(model, engine_command, Command): of each predicate
+%   below for which a modelled engine has no Command
 %   @error domain_error(fleet_option, Option), domain_error(fleet_name, Fleet)
 %   @error resource_error(fleet(Fleet)): the engine does not answer
 %   @error permission_error(authenticate, fleet, Fleet): the engine refuses the

@@ -107,7 +107,7 @@ files('options/cell',['options/cell/cell_hosts','options/cell/gatekeeper']).
 files('options/concurrency',['options/concurrency']).
 files('options/directory',['options/directory/offers']).
 files('options/external_recipients',['options/external_recipients']).
-files('options/fleet',['options/fleet/drain','options/fleet/fleet_journal','options/fleet/members','options/fleet/parking','options/fleet/registry','options/fleet/tags','options/fleet/takeover']).
+files('options/fleet',['options/fleet/drain','options/fleet/fleet_journal','options/fleet/members','options/fleet/modelled_members','options/fleet/parking','options/fleet/registry','options/fleet/tags','options/fleet/takeover']).
 files('options/guard',['options/guard']).
 files('options/host_log',['options/host_log']).
 files('options/identity',['options/identity/authors','options/identity/birth','options/identity/sender_rights']).

@@ -14,7 +14,7 @@
 :- use_module('../host',
               [ alarm_set/3, event/4, event_subscribed/1, host_address/2,
                 host_option/2, host_resolve/2, host_time/2, parts_call/3,
-                real_time/3, schedule/2 ]).
+                real_time/3, schedule/2, time_apart/2, time_kind/1 ]).
 :- use_module('../agent',
               [ agent/5, agent_here/5, agent_name/3, agent_note/3,
                 agent_put/3, agent_ready/2, agent_rest/3, agent_rests/3,
@@ -64,7 +64,7 @@ effect(move(Host), Hole, Goals, Id-Here, Next) :-
 effect(move(Host, Options), Hole, Goals, Id-Here, Next) :-
     check_options(move_option, Options),
     destination(Host, Dest),
-    (   Dest = remote(_, _, _),
+    (   may_be_away(Dest, Here),
         option(wait(Seconds), Options)
     ->  parts_call(acts, Here, [Id, move]),
         wait_until(Seconds, Here, Until),
@@ -286,6 +286,14 @@ hop_delay(Id, Here, Life, Min, Max, Delay) :-
     chance_uniform(Min, Max, Delay, Chance, _).
 hop_delay(_, _, _, Min, Max, Delay) :-
     Delay is Min+random_float*(Max-Min).
+
+%   may_be_away(+Dest, +Here): also while the agent is on its way out.
+
+may_be_away(remote(_, _, _), _).
+may_be_away(local(Name), Here) :-
+    Name \== Here,
+    time_kind(Kind),
+    time_apart(Kind, _).
 
 %   A name that no host has is handled like a host that another process lacks.
 

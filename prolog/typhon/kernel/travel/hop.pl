@@ -110,9 +110,10 @@ agent; answers and taken_over/4 in the threads of the endpoint, which never wait
 %   @error type_error(mobile_term, Culprit)
 %   @error move_refused(Address, Reason), of a host of this process
 
-hop(Id, local(Name), Hole, Goals, Since, Next) :-
+hop(Id, local(Name), Hole0, Goals, Since, Next) :-
     \+ cut_off(Id, Name),
     !,
+    ( nonvar(Hole0), Hole0 = wait(Hole, _) -> true ; Hole = Hole0 ),
     hop_within(Id, Name, Hole, Goals, Since, Next).
 hop(Id, Where, Hole, Goals0, Since, stop) :-
     plain_goals(Goals0, Goals),

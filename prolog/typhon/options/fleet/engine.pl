@@ -7,7 +7,7 @@
             engine_key/3                % +Fleet, +Names, -Key
           ]).
 :- use_module(library(apply), [include/3, maplist/2]).
-:- use_module(library(error), [existence_error/2]).
+:- use_module(library(error), [existence_error/2, permission_error/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2, memberchk/2, nth1/3]).
 :- use_module(library(option), [option/2, option/3]).
@@ -18,6 +18,9 @@
 :- use_module(library(sha), [hash_atom/2, sha_hash/3]).
 :- use_module('../../kernel/base/monotonic',
               [deadline/2, monotonic_time/1, wait_within/2]).
+:- use_module(modelled,
+              [ modelled/1, modelled_call/4, modelled_close/1,
+                modelled_open/1 ]).
 
 /** <module> The engine of a fleet: a server of Redis
 
@@ -54,7 +57,8 @@ its fleet.
 %!  engine_open(+Fleet, +Options) is det.
 %!  engine_close(+Fleet) is det.
 %
-%   Options: redis(Host:Port), or sentinel(Name) and sentinels(Addresses);
+%   Options: redis(Host:Port), or sentinel(Name) and sentinels(Addresses), or
+%   engine(modelled), see typhon_modelled_engine;
 %   user(User), password(Password), tls(true), cacert(File), key(File),
 %   cert(File).
 %
@@ -62,6 +66,10 @@ its fleet.
 %   @error permission_error(authenticate, fleet, Fleet)
 %   @error existence_error(option, Option): TLS needs three files
 
+engine_open(Fleet, Options) :-
+    option(engine(modelled), Options),
+    !,
+    modelled_open(Fleet).
 engine_open(Fleet, Options) :-
     (   option(tls(true), Options),
         member(Option, [cacert(_), key(_), cert(_)]),
@@ -75,6 +83,10 @@ engine_open(Fleet, Options) :-
     catch(engine(Fleet, ping, _), Ball,
           ( engine_close(Fleet), throw(Ball) )).
 
+engine_close(Fleet) :-
+    modelled(Fleet),
+    !,
+    modelled_close(Fleet).
 engine_close(Fleet) :-
     (   retract(server(Fleet, Idle, _))
     ->  close_idle(Idle),
@@ -261,6 +273,11 @@ master(Sentinel, Pool, Host:Port) :-
 %   @error resource_error(fleet_space(Fleet)): the engine has no space left
 %   @error redis_error(Code, Text): Command is wrong
 
+engine(Fleet, Command, _) :-
+    modelled(Fleet),
+    !,
+    functor(Command, Name, _),
+    permission_error(model, engine_command, Name).
 engine(Fleet, Command, Reply) :-
     taken(Fleet, C, Age),
     call_cleanup(asked(C, Command, Answer), give_back(Answer, Fleet, C)),
@@ -349,6 +366,10 @@ answer(broken(Why), _, Fleet, _, _) :-
 %   one step of the engine.  It may be called twice.
 
 engine_script(Fleet, Script, Args, Reply) :-
+    modelled(Fleet),
+    !,
+    modelled_call(Fleet, Script, Args, Reply).
+engine_script(Fleet, Script, Args, Reply) :-
     script(Script, Sha, Text),
     engine_key(Fleet, [''], Prefix),
     ByHash =.. [evalsha, Sha, 0, Prefix|Args],
@@ -385,6 +406,10 @@ lua(Script, Text) :-
 %   Id changes when the engine is started again.
 
 engine_run_id(Fleet, Id) :-
+    modelled(Fleet),
+    !,
+    Id = modelled.
+engine_run_id(Fleet, Id) :-
     engine(Fleet, info(server), Text),
     split_string(Text, "\n", "\r ", Lines),
     member(Line, Lines),
@@ -413,6 +438,9 @@ prolog:error_message(resource_error(fleet(Fleet))) -->
     [ 'The engine of the fleet ~w cannot be reached'-[Fleet] ].
 prolog:error_message(resource_error(fleet_space(Fleet))) -->
     [ 'The engine of the fleet ~w has no space left'-[Fleet] ].
+prolog:error_message(permission_error(model, engine_command, Command)) -->
+    [ 'A modelled engine has no ~w: journals, watches and queues of work need \c
+       a server'-[Command] ].
 prolog:error_message(permission_error(authenticate, fleet, Fleet)) -->
     [ 'The engine of the fleet ~w does not accept the user and password: \c
        check user(User) and password(Password), and its ACL'-[Fleet] ].

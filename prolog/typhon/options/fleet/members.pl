@@ -6,7 +6,11 @@
             fleet_host/3,               % ?Host, ?Fleet, -Tags
             must_be_fleet/1,            % +Fleet
             fleet_beat/1,               % +Fleet
-            fleet_told/1                % +Fleet
+            fleet_told/1,               % +Fleet
+            fleet_lease/2,              % +Options, -Seconds
+            fleet_host_beats/2,         % +Fleet, +Host
+            fleet_host_leaves/2,        % +Fleet, +Host
+            fleet_reports/1             % +Fleet
           ]).
 :- use_module(library(error), [existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(lists), [append/2, append/3, member/2]).
@@ -28,13 +32,14 @@
 Each fleet that this process has joined has a thread, which alone changes what
 the engine stores of this process.  Three times in a lease it renews the lease,
 with the hosts of this process, their tags and loads; it also does what other
-modules add by the hooks work/1 and beaten/3.
+modules add by the hooks work/1 and beaten/4.
 
 *Threading*: any thread; the thread of the fleet where a comment says so.
 */
 
 :- multifile
-    beaten/3,                   % Fleet, Parked, Orphans: the engine has answered
+    beaten/4,                   % Fleet, Endpoint, Parked, Orphans: the engine
+                                % has answered
     fenced/2,                   % Fleet, Why: another process has the address or
                                 % the journal of this one
     is_gone/1,                  % Host: it has left its fleet, and runs
@@ -76,7 +81,8 @@ typhon_names:known(fleet, Fleet) :-
 join_fleet(Fleet, Options) :-
     must_be_name(fleet_name, Fleet),
     check_options(fleet_option, Options),
-    (   ( option(redis(_), Options) ; option(sentinel(_), Options) )
+    (   member(Engine, [redis(_), sentinel(_), engine(_)]),
+        option(Engine, Options)
     ->  true
     ;   existence_error(option, redis)
     ),
@@ -91,16 +97,25 @@ join(Fleet, _) :-
     permission_error(join, fleet, Fleet).
 join(Fleet, Options) :-
     engine_open(Fleet, Options),
-    catch(( server_start(fleet, typhon_members:handle(Fleet, Options), none,
-                          Server),
+    catch(( served(Fleet, Options, Server),
             assertz(fleet(Fleet, Server, Options)) ),
           Ball,
           ( engine_close(Fleet), throw(Ball) )).
+
+%   served(+Fleet, +Options, -Server): Server is `none` where alarms do its work,
+%   see typhon_modelled_members.
+
+served(_, Options, none) :-
+    option(engine(modelled), Options),
+    !.
+served(Fleet, Options, Server) :-
+    server_start(fleet, typhon_members:handle(Fleet, Options), none, Server).
 
 typhon_options:declared(fleet_option, Option, Type, Value) :-
     option_type(Option, Type, Value).
 
 option_type(redis(X), compound, X).
+option_type(engine(X), oneof([modelled]), X).
 option_type(sentinel(X), atom, X).
 option_type(sentinels(X), list, X).
 option_type(user(X), atomic, X).
@@ -121,7 +136,7 @@ leave_fleet(Fleet) :-
 
 leave(Fleet) :-
     (   retract(fleet(Fleet, Server, _))
-    ->  server_stop(Server),
+    ->  ( Server == none -> true ; server_stop(Server) ),
         retractall(member(Fleet, _, _)),
         engine_close(Fleet)
     ;   true
@@ -160,8 +175,12 @@ fleet_member(Fleet, Endpoint, Token) :-
 
 fleet_told(Fleet) :-
     fleet(Fleet, Server, Options),
-    lease(Options, Seconds),
+    fleet_lease(Options, Seconds),
+    Server \== none,
+    !,
     server_call(Server, registered, Seconds, true).
+fleet_told(Fleet) :-
+    fleet(Fleet, none, _).
 
 %!  fleet_beat(+Fleet) is det.
 %
@@ -169,7 +188,8 @@ fleet_told(Fleet) :-
 %   at once.
 
 fleet_beat(Fleet) :-
-    (   fleet(Fleet, Server, _)
+    (   fleet(Fleet, Server, _),
+        Server \== none
     ->  ignore(server_cast(Server, beat))
     ;   true
     ).
@@ -222,7 +242,9 @@ typhon_hosting:started(Host) :-
     ;   true
     ).
 
-lease(Options, Seconds) :-
+%!  fleet_lease(+Options, -Seconds) is det.
+
+fleet_lease(Options, Seconds) :-
     option(lease(Seconds), Options, 3).
 
                 /*******************************
@@ -293,14 +315,14 @@ beat(Fleet, Options, Next) :-
 %   Known is `true` if the engine has answered.
 
 beat(Fleet, Options, Next, Known) :-
-    lease(Options, Lease),
+    fleet_lease(Options, Lease),
     Third is Lease/3,
     deadline(Third, Next),
     quietly(( beat(Fleet, Options), Known = true )),
     ignore(Known = false).
 
 beat(Fleet, Options) :-
-    findall(Host, known_host(Fleet, Host), Hosts),
+    findall(Row, known_host(Fleet, _, Row), Hosts),
     endpoint_address(Endpoint),
     Hosts \== [],
     !,
@@ -309,12 +331,12 @@ beat(Fleet, Options) :-
     ->  gives_back(Fleet)
     ;   true
     ),
-    lease(Options, Lease),
+    fleet_lease(Options, Lease),
     renewed(Fleet, Lease, Endpoint, Hosts).
 beat(Fleet, _) :-
     gives_back(Fleet).
 
-known_host(Fleet, [Address,Load,Count|Tags]) :-
+known_host(Fleet, Host, [Address,Load,Count|Tags]) :-
     fleet_host(Host, Fleet, Tags),
     host(Host, Address, _),
     host_load(Host, Load),
@@ -339,7 +361,7 @@ renewed(Fleet, Lease, Endpoint, Hosts) :-
 
 answered(ok, [Parked,Orphans], Fleet, Endpoint, Token) :-
     has_lease(Fleet, Endpoint, Token),
-    forall(beaten(Fleet, Parked, Orphans), true).
+    forall(beaten(Fleet, Endpoint, Parked, Orphans), true).
 answered(new, Rest, Fleet, Endpoint, Token) :-
     forall(is_new(Fleet), true),
     answered(ok, Rest, Fleet, Endpoint, Token).
@@ -355,11 +377,38 @@ has_lease(Fleet, Endpoint, Token) :-
     ).
 
 gives_back(Fleet) :-
-    (   member(Fleet, Endpoint, Token)
-    ->  retractall(member(Fleet, _, _)),
-        engine_script(Fleet, leave, [Endpoint,Token], _)
+    forall(retract(member(Fleet, Endpoint, Token)),
+           engine_script(Fleet, leave, [Endpoint,Token], _)).
+
+                /*******************************
+                *        WITHOUT A THREAD      *
+                *******************************/
+
+%!  fleet_host_beats(+Fleet, +Host) is det.
+%!  fleet_host_leaves(+Fleet, +Host) is det.
+%!  fleet_reports(+Fleet) is det.
+%
+%   For a fleet whose engine is modelled: renew the lease of Host, which stands
+%   for a process, or give it back; report what is new.
+
+fleet_host_beats(Fleet, Host) :-
+    fleet(Fleet, _, Options),
+    fleet_lease(Options, Lease),
+    host(Host, Address, _),
+    (   known_host(Fleet, Host, Row)
+    ->  quietly(renewed(Fleet, Lease, Address, [Row]))
+    ;   fleet_host_leaves(Fleet, Host)
+    ).
+
+fleet_host_leaves(Fleet, Host) :-
+    (   host(Host, Address, _),
+        retract(member(Fleet, Address, Token))
+    ->  engine_script(Fleet, leave, [Address,Token], _)
     ;   true
     ).
+
+fleet_reports(Fleet) :-
+    quietly(reports(Fleet)).
 
                 /*******************************
                 *            MESSAGES          *

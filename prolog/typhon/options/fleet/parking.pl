@@ -7,15 +7,15 @@
 :- use_module(library(lists), [append/2, append/3, member/2]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../../kernel/agent', [agent_home/2, agent_home_endpoint/2]).
+:- use_module('../../kernel/agent', [agent_home/2, agent_home_endpoint/2, agent_on/2]).
 :- use_module('../../kernel/base/durable',
               [ after_unit/1, durable/5, durable_assertz/1, durable_drop/3,
                 durable_on/0, durable_restores/0, sync_changes/0 ]).
-:- use_module('../../kernel/base/monotonic', [deadline/2, monotonic_time/1]).
 :- use_module('../../kernel/base/reports', [report/4]).
 :- use_module('../../kernel/base/text', [term_text/2, text_term/2]).
 :- use_module('../../kernel/host',
-              [address_parts/3, alarm_in/3, host/3, scheduler_call/1]).
+              [ address_parts/3, alarm_in/3, host/3, hosts_apart/2,
+                scheduler_call/1, time_now/1 ]).
 :- use_module('../../kernel/travel',
               [ mail_admit/3, mail_lost/3, news_send/3, parcel_admit/3,
                 parcel_returned/3, senders_checked/0, transfer_arrived/1,
@@ -49,7 +49,7 @@ time takes what is parked, and one sends the letters for an agent.
     prolog:error_message//1,
     typhon_durable:go_on/0,
     typhon_mail:mail_kept/3,
-    typhon_members:beaten/3,
+    typhon_members:beaten/4,
     typhon_on_demand:joins/2,
     typhon_scheduler:fire/2,
     typhon_scheduler:over/2,
@@ -82,9 +82,15 @@ typhon_on_demand:joins(fleet, joined).
 typhon_transfer:parks(Transfer, Seconds) :-
     fleet_host(_, _, _),                % else it could not return
     !,
-    ( Seconds == inf -> Until = inf ; deadline(Seconds, Until) ),
+    until(Seconds, Until),
     Ticket is random(1<<62),
     scheduler_call(typhon_parking:park(Transfer, Until, Ticket-0)).
+
+until(inf, inf) :-
+    !.
+until(Seconds, Until) :-
+    time_now(Now),
+    Until is Now+Seconds.
 
 park(Transfer, Until, Ticket) :-
     catch(asked(Transfer, Until, Ticket, Answer), error(Formal, _),
@@ -131,7 +137,7 @@ bounds(Most, Bytes) :-
 milliseconds(inf, inf) :-
     !.
 milliseconds(Until, Ttl) :-
-    monotonic_time(Now),
+    time_now(Now),
     Ttl is max(0, ceiling(1000*(Until-Now))).
 
 %   in_fleets(+Script, +Args, +No, -Answer): of the first fleet whose engine
@@ -188,8 +194,12 @@ sure(Kept, Transfer, Until, Ticket) :-
     ;   park(Transfer, Until, Ticket)
     ).
 
-%   No process that has the agent informs its home.
+%   No process that has the agent informs its home.  In virtual time the process
+%   that takes it is this one, where the frozen agent waits for its hop.
 
+is_parked(transfer(_, dest(_, _, Endpoint), _)) :-
+    endpoint_address(Endpoint),
+    !.
 is_parked(Transfer) :-
     Transfer = transfer(Id, dest(Address, _, Endpoint), Hops),
     transfer_arrived(Transfer),
@@ -213,7 +223,7 @@ typhon_mail:mail_kept(Formal, Id, Mail) :-
     \+ ( senders_checked, is_from_agent(Mail) ),
     catch(term_text(Mail, Text), error(_, _), fail),
     fits(Text),
-    letter_asked(Id, '', "", Answer),
+    letter_asked(Id, '', "", Mail, Answer),
     (   Answer = kept(_, _)
     ->  true
     ;   Answer == unknown,
@@ -227,6 +237,18 @@ typhon_mail:mail_kept(Formal, Id, Mail) :-
     ->  after_unit(typhon_parking:letters_soon(Id))
     ;   letters_sent(Id)
     ).
+
+%   In virtual time the sender knows where the letter is.
+
+own_process([mail(_, From, _)|_], Host) :-
+    fleet_member(_, Host, _),
+    agent_on(From, Name),
+    host(Name, Host, _),
+    !.
+own_process(_, Own) :-
+    endpoint_address(Own),
+    !.
+own_process(_, '').
 
 is_from_agent(Mail) :-
     member(mail(_, From, _), Mail),
@@ -278,7 +300,7 @@ letters_sent(Id, Answer) :-
     ).
 
 forget_sure(Id, Runs) :-
-    monotonic_time(Now),
+    time_now(Now),
     forall(( letter(Id, N, letter(Name, Formal, Mail)),
              sent(Name, Run, Until),
              Until =< Now,
@@ -293,7 +315,7 @@ send_letters(Id, Runs, Answer) :-
         Letter = letter(Name, Formal, Mail),
         \+ ( sent(Name, Run, _), memberchk(Run, Runs) )
     ->  term_text(Mail, Text),
-        letter_asked(Id, Name, Text, Answer0),
+        letter_asked(Id, Name, Text, Mail, Answer0),
         (   Answer0 == unknown
         ->  Answer = unknown
         ;   letter_sent(Answer0, Id, N, Letter, Gone),
@@ -307,7 +329,7 @@ letter_sent(kept(Fleet, Run), Id, _, letter(Name, _, _), kept) :-
     \+ confirms_all(Fleet),
     !,
     setting(typhon_fleet:sure_seconds, Seconds),
-    deadline(Seconds, Until),
+    until(Seconds, Until),
     retractall(sent(Name, _, _)),
     assertz(sent(Name, Fleet-Run, Until)),
     alarm_in(Seconds, Id, parked_letters).
@@ -320,9 +342,9 @@ letter_over(Id, N, letter(Name, _, _)) :-
     retractall(sent(Name, _, _)),
     retractall(letter(Id, _, letter(Name, _, _))).
 
-letter_asked(Id, Name, Text, Answer) :-
+letter_asked(Id, Name, Text, Mail, Answer) :-
     bounds(Most, Bytes),
-    ( endpoint_address(Own) -> true ; Own = '' ),
+    own_process(Mail, Own),
     catch(( ( Name == '' -> true ; sync_changes ),
             in_fleets(mail, [Own,Id,Name,Most,Bytes,Text], none, Answer) ),
           error(Formal, _),
@@ -341,17 +363,18 @@ alone(What, Goal) :-
                 *            TAKING            *
                 *******************************/
 
-typhon_members:beaten(Fleet, Parked, _) :-
+typhon_members:beaten(Fleet, Endpoint, Parked, _) :-
     Parked > 0,
-    scheduler_call(typhon_parking:take(Fleet)).
+    scheduler_call(typhon_parking:take(Fleet, Endpoint)).
 
 %   Agents that a journal restores come first.
 
-take(Fleet) :-
+take(Fleet, Endpoint) :-
     (   durable_restores
     ->  true
     ;   ignore(reporting(Fleet, alone(taking(Fleet),
-                                      typhon_parking:take(Fleet, '0-0', []))))
+                                      typhon_parking:take(Fleet, Endpoint,
+                                                          '0-0', []))))
     ).
 
 :- meta_predicate reporting(+, 0).
@@ -362,9 +385,9 @@ reporting(What, Goal) :-
                    typhon(raised(error(Formal, Context)))),
             fail )).
 
-take(Fleet, After, Done) :-
+take(Fleet, Endpoint, After, Done) :-
     fleet_member(Fleet, Endpoint, Token),
-    findall(Address, host(_, Address, _), Hosts),
+    hosts_of(Endpoint, Hosts),
     length(Hosts, Count),
     append([[Endpoint,Token,After,Count], Hosts, Done], Args),
     engine_script(Fleet, take, Args, [Last,Rows]),
@@ -375,8 +398,16 @@ take(Fleet, After, Done) :-
                   reporting(Fleet, typhon_parking:taken(Row, Fleet, Token)) ),
                 Entries),
         sync_changes,
-        take(Fleet, Last, Entries)
+        take(Fleet, Endpoint, Last, Entries)
     ).
+
+%   In virtual time each host stands for a process.
+
+hosts_of(Host, [Host]) :-
+    host(_, Host, _),
+    !.
+hosts_of(_, Hosts) :-
+    findall(Address, host(_, Address, _), Hosts).
 
 %   taken(+Row, +Fleet, +Token) is semidet: it is in this process, or has been;
 %   its entry can be deleted.
@@ -387,7 +418,8 @@ taken(["mail",Id0,Name0,Text], _, _) :-
     (   readable(Text, Mail),
         is_list(Mail),
         forall(member(One, Mail), is_mail(One))
-    ->  mail_admit(Name, Id, Mail)
+    ->  \+ is_cut_off(Mail, Id),
+        mail_admit(Name, Id, Mail)
     ;   unreadable(Id)
     ).
 taken(["agent",Id0,To0,Why,Text], Fleet, Token) :-
@@ -403,6 +435,14 @@ taken(["agent",Id0,To0,Why,Text], Fleet, Token) :-
         Answer = refused(error(syntax_error(parcel)))
     ),
     admitted(Answer, To, Fleet, Id, Token).
+
+%   In virtual time a letter also waits until its sender is not away.
+
+is_cut_off(Mail, Id) :-
+    agent_on(Id, Here),
+    member(mail(_, From, _), Mail),
+    agent_on(From, There),
+    hosts_apart(Here, There).
 
 is_mail(Mail) :-
     subsumes_term(mail(_, _, _), Mail),

@@ -68,7 +68,8 @@ typhon_members:work(Fleet) :-
 %   the next one goes on.  The last one, of a fleet that is left, is whole.
 
 report_until(Fleet, Until) :-
-    (   fleet_joined(Fleet, Options)
+    (   fleet_joined(Fleet, Options),
+        \+ option(engine(modelled), Options)
     ->  option(lease(Lease), Options, 3),
         deadline(Lease/6, Until)
     ;   Until = inf

@@ -35,7 +35,7 @@ more: its hosts rest, and it ends with status 75, unless it has a terminal.
 :- multifile
     prolog:message//1,
     typhon_connection:leads_to/2,
-    typhon_members:beaten/3,
+    typhon_members:beaten/4,
     typhon_members:fenced/2,
     typhon_members:is_gone/1,
     typhon_members:recovers/1,
@@ -95,7 +95,7 @@ typhon_members:recovers(Fleet) :-
     option(recover(How), Options, false),
     How \== false.
 
-typhon_members:beaten(Fleet, _, Orphans) :-
+typhon_members:beaten(Fleet, _, _, Orphans) :-
     forall(member([Endpoint0,Journal0], Orphans),
            ( atom_string(Endpoint, Endpoint0),
              atom_string(Journal, Journal0),
