@@ -51,8 +51,7 @@ typhon_host_parts:check(Options) :-
 typhon_host_parts:changeable(log(_)).
 
 typhon_hosting:begins(Host) :-
-    log_server(Host, Log, Kinds),
-    !,
+    once(log_server(Host, Log, Kinds)),
     address_parts(Log, _, Endpoint),
     retractall(missed(Endpoint, _)),
     findall(Kind, ( member(Wanted, Kinds), once(log_kind(Wanted, Kind)) ),

@@ -6,6 +6,14 @@
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(typhon)).
+:- use_module(library(typhon/options/host_log)).
+
+:- multifile typhon_hosting:begins/1.
+
+:- dynamic begun/1.
+
+typhon_hosting:begins(Host) :-          % after that of the log
+    assertz(begun(Host)).
 
 /** <module> A missing log server
 
@@ -55,5 +63,10 @@ test(each_host_that_starts_is_logged, Count == 2) :-
     capturing(( Once, Once ), Messages),
     warnings_of(Messages, Warnings),
     aggregate_all(count, member(log_unheard(Endpoint), Warnings), Count).
+test(other_options_learn_that_a_host_with_a_log_begins) :-
+    free_port(Port),
+    at(Port, Endpoint),
+    atom_concat('log@', Endpoint, Log),
+    with_hosts([delta-[log(Log)]], assertion(begun(delta))).
 
 :- end_tests(host_log).
