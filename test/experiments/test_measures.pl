@@ -581,6 +581,14 @@ example('applications/study_warehouse', [], [a, b], Events,
              20:a:x:completed(o), 30:a:x:completed(p),
              31:a:x:orders(4, 2, 1) ], Events).
 
+%   b does not return, and works on a robot twice.
+
+example('fleet/study_away', [agents-2, limit-100], [h, r], Events,
+        [done-1, time-60, tries-1.5, twice-1]) :-
+    entries([ 0:h:a:sent, 0:h:a:tries, 5:r:a:begins, 9:r:a:tries,
+              20:h:a:delivered, 30:h:b:sent, 31:h:b:tries, 40:r:b:begins,
+              50:r:b:begins ], Events).
+
 %   differing(+Name, +Given, -Wrong, -Missing): in the example; Wrong are
 %   Measure-Value, with another value than is expected, or not expected.
 

@@ -62,6 +62,15 @@ made('applications/study_warehouse', [way=alone, robots=N],
     member(N, [4, 6, 8]),
     Time is 999 - N.
 
+made('fleet/study_away', [way=again],
+     [done-40/40, time-10/10, tries-10/10, twice-0/1]).
+made('fleet/study_away', [way=wait],
+     [done-40/39, time-10/10.1, tries-4.9/5, twice-0/1]).
+made('fleet/study_away', [way=others],
+     [done-40/40, time-9.9/10.1, tries-8/8, twice-0/1]).
+made('fleet/study_away', [way=both],
+     [done-40/40, time-9.9/10.2, tries-7.9/8, twice-0/1]).
+
                 /*******************************
                 *           LEARNING           *
                 *******************************/

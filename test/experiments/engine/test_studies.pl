@@ -113,6 +113,7 @@ claims(allocation, [ beyond_integrated-5, beyond_replacement-6,
 claims(applications, [ study_fire_alarm-5, study_fire_signs-5,
                        study_irrigation-6, study_solar-10,
                        study_warehouse-9 ]).
+claims(fleet, [study_away-7]).
 claims(hierarchy, [beyond_lead-7, beyond_lead_learning-4]).
 claims(learning, [ figure_4_13-5, figure_4_7-16, figure_4_9-34,
                    study_bounds-10, study_light-6 ]).
