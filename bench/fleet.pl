@@ -6,20 +6,24 @@
 :- use_module(library(typhon/options/fleet/engine),
               [engine/3, engine_script/4]).
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(lists), [member/2, numlist/3]).
+:- use_module(library(lists), [append/3, member/2, nth1/3, numlist/3]).
 :- use_module(library(thread), [concurrent_forall/3]).
 
 /*  What a fleet costs: a hop between two processes of a fleet against one
     between two processes without; processes that join; a process that is idle;
-    and the engine, with the beats and reports of many processes, sent by one.
+    the engine, with the beats and reports of many processes, sent by one; and a
+    thousand hosts with a modelled engine, in virtual time.
 
     Pairs alternate in one run: compare their ratios on a busy machine.
 
     swipl bench/fleet.pl -- all
-    swipl bench/fleet.pl -- hop|join|idle|engine */
+    swipl bench/fleet.pl -- hop|join|idle|engine|modelled */
 
 :- initialization(main, main).
 
+main([modelled]) :-
+    !,
+    modelled.
 main([What]) :-
     with_redis(Redis, in_fleet(Redis, measure(What))).
 
@@ -40,6 +44,7 @@ part(hop, hop).
 part(join, join(64)).
 part(idle, idle).
 part(engine, engine).
+part(modelled, modelled).
 
 :- meta_predicate in_network(+, +, -, 0).
 
@@ -259,3 +264,81 @@ value(Text, Key, Value) :-
     split_string(Line, ":", "", [Key,Value0]),
     !,
     number_string(Value, Value0).
+
+                /*******************************
+                *      THE MODELLED ENGINE     *
+                *******************************/
+
+%   A thousand hosts in virtual time, for five minutes after the first: idle,
+%   and with a thousand agents that go to and fro between two hosts each, six
+%   times a minute. In the last row every third host is away for half of
+%   these.
+
+modelled :-
+    setup_call_cleanup(
+        fleet_join(model, [engine(modelled), lease(60), report(10)]),
+        forall(( case(Name, Fleet, Agents, Away),
+                 thousand(Fleet, Agents, Away, Spent) ),
+               spent_figure(Name, Spent)),
+        fleet_leave(model)).
+
+case('1,000 hosts, idle, in a fleet', [fleet(model)], 0, none).
+case('the same with 1,000 agents, without a fleet', [], 1000, none).
+case('the same in a fleet', [fleet(model)], 1000, none).
+case('the same, a third of the hosts away', [fleet(model)], 1000, third).
+
+spent_figure(Name, spent(Cpu, Inferences, Parked)) :-
+    Millions is Inferences/1.0e6,
+    format(atom(Note), '~1f million inferences; parked: ~D',
+           [Millions, Parked]),
+    figure(Name, Cpu, s, Note).
+
+%   thousand(+Fleet, +Agents, +Away, -Spent): what five minutes cost.
+
+thousand(Fleet, Agents, Away, spent(Cpu, Inferences, Parked)) :-
+    setup_call_cleanup(
+        network_start(ring(1000), Network, [clock(virtual), seed(1)|Fleet]),
+        ( network_property(Network, hosts(Hosts)),
+          goers(Agents, Hosts),
+          network_advance(Network, 60),
+          spent_until_now(Network, Cpu0, Inferences0),
+          third_away(Away, Hosts, true),
+          network_advance(Network, 150),
+          fleet_parked(model, All),
+          length(All, Parked),
+          third_away(Away, Hosts, false),
+          network_advance(Network, 150),
+          spent_until_now(Network, Cpu1, Inferences1) ),
+        network_stop(Network)),
+    Cpu is Cpu1-Cpu0,
+    Inferences is Inferences1-Inferences0.
+
+%   Of the thread of virtual time.
+
+spent_until_now(Network, Cpu, Inferences) :-
+    message_queue_create(Queue),
+    network_at(Network, 0,
+               ( statistics(inferences, I),
+                 thread_send_message(Queue, inferences(I)) )),
+    network_advance(Network, 0.001),
+    thread_get_message(Queue, inferences(Inferences)),
+    message_queue_destroy(Queue),
+    statistics(process_cputime, Cpu).
+
+goers(Agents, Hosts) :-
+    append(Hosts, Hosts, Twice),
+    forall(( between(1, Agents, N), nth1(N, Twice, From), Next is N+1,
+             nth1(Next, Twice, To) ),
+           agent_create(clauses([ (:- agent(goer)),
+                                  (main :- go(From, To)),
+                                  (go(A, B) :- sleep(10),
+                                               moved(B),
+                                               go(B, A)),
+                                  (moved(B) :- catch(move(B, [wait(inf)]),
+                                                     error(_, _), true)) ]),
+                        _, [host(From)])).
+
+third_away(none, _, _).
+third_away(third, Hosts, Away) :-
+    forall(( nth1(N, Hosts, Host), N mod 3 =:= 0 ),
+           host_change(Host, away(Away))).
