@@ -41,4 +41,9 @@ came(raises, raised).
 came(runs_for_a_while, many).
 came(always_ready, done).
 came(rests, [asked(first),asked(second)]).
+came(server_handles, [1,begun]-[2,1,begun]).
+came(server_defers, [later,first,begun]).
+came(server_raises, oops-[begun]).
+came(server_stops_itself, stopped-[begun]).
+came(server_times_out, [timeout,soon,begun]).
 came(loaded, []).

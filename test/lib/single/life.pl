@@ -1,5 +1,6 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(typhon/kernel)).
+:- use_module(library(typhon/kernel/base/server)).
 
 /*  Agents without threads, sockets and processes: main/0 prints a fact for
     each step, see test_single.pl and test_wasm.pl. */
@@ -32,6 +33,11 @@ step(raises, outcome([ (:- agent(r, [])), (main :- atom_length(_, _)) ])).
 step(runs_for_a_while, runs).
 step(always_ready, busy).
 step(rests, rests).
+step(server_handles, server_handles).
+step(server_defers, server_defers).
+step(server_raises, server_raises).
+step(server_stops_itself, server_stops_itself).
+step(server_times_out, server_times_out).
 
 create(Clauses, Agent, Options) :-
     agent_create(clauses(Clauses), Agent, Options).
@@ -130,6 +136,82 @@ rests(Answer) :-
     agents_run(inf),
     agent_property(Agent, facts(Answer)),
     agent_dispose(Agent).
+
+                /*******************************
+                *             SERVERS          *
+                *******************************/
+
+handle(begin, List, [begun|List]).
+handle(stop, List, _) :-
+    assertz(ended(List)).
+handle(timeout, List, [timeout|List]).
+handle(add(X), List, [X|List]).
+handle(again(X), List, [X|List]) :-
+    server_self(Server),
+    server_cast(Server, add(later)),
+    server_call_other(List).
+handle(soon, List, until(0, [soon|List])).
+handle(call(list, Caller), List, List) :-
+    server_answer(Caller, List).
+handle(call(raise, _), _, _) :-
+    throw(error(oops, _)).
+handle(call(stop, Caller), List, List) :-
+    server_self(Server),
+    server_stop(Server),
+    server_answer(Caller, stopped).
+
+:- dynamic ended/1, other/1.
+
+%   The handler of one server calls another, and is itself again afterwards.
+
+server_call_other(_) :-
+    server_self(Me),
+    other(Other),
+    server_call(Other, list, 1, [begun]),
+    server_self(Me).
+
+server_handles(List-Ended) :-
+    started(Server),
+    server_cast(Server, add(1)),
+    server_call(Server, list, 1, List),
+    server_cast(Server, add(2)),
+    server_stop(Server),
+    retract(ended(Ended)),
+    \+ server_cast(Server, add(3)).
+
+server_defers(List) :-
+    started(Server),
+    started(Other),
+    assertz(other(Other)),
+    server_cast(Server, again(first)),
+    server_call(Server, list, 1, List),
+    server_stop(Other),
+    server_stop(Server),
+    retractall(ended(_)).
+
+server_raises(Error-List) :-
+    started(Server),
+    catch(server_call(Server, raise, 1, _), error(Error, _), true),
+    server_call(Server, list, 1, List),
+    server_stop(Server),
+    retractall(ended(_)).
+
+server_stops_itself(Answer-Ended) :-
+    started(Server),
+    server_call(Server, stop, 1, Answer),
+    retract(ended(Ended)),
+    \+ server_cast(Server, add(3)).
+
+server_times_out(List) :-
+    started(Server),
+    server_cast(Server, soon),
+    server_check(Server),
+    server_call(Server, list, 1, List),
+    server_stop(Server),
+    retractall(ended(_)).
+
+started(Server) :-
+    server_start(life, handle, [], Server).
 
 %   Features that browsers lack, and whether there is another thread.
 

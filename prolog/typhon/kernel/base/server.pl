@@ -11,7 +11,7 @@
             server_leave/1              % +Server
           ]).
 :- use_module(fifo, [fifo_send/2]).
-:- use_module(monotonic, [wait_before/2, wait_within/2]).
+:- use_module(monotonic, [monotonic_time/1, wait_before/2, wait_within/2]).
 :- use_module(error_text, [error_lines/3, is_abort/1]).
 
 /** <module> Servers: threads that own a queue
@@ -32,6 +32,10 @@ prints it, and begins again with its first State.  If its thread is aborted, it
 reports this as an error, and another thread begins with that State and the same
 queue; if no thread can be created, server_cast/2 and server_check/1 try again.
 
+In a Prolog without threads the sender of a message handles it at once; while the
+server handles another message, after that one.  `timeout` comes with the first
+server_cast/2 or server_check/1 after its time.
+
 *Threading*: any thread. A server may stop itself.
 */
 
@@ -43,7 +47,9 @@ queue; if no thread can be created, server_cast/2 and server_check/1 try again.
 
 :- dynamic
     server/4,                   % Queue, Role, Handle, first State
-    serving/2,                  % Queue, Thread
+    serving/2,                  % Queue, Thread, or `here` without threads
+    resting/3,                  % Queue, Handle, State: without threads, between
+                                % messages
     unserved/1.                 % Queue: its lack of a thread was reported
 
                 /*******************************
@@ -69,6 +75,11 @@ server_start(Role, Handle, State, Options, Queue) :-
           ( server_stop(Queue),
             throw(error(Formal, Context)) )).
 
+make_thread(Queue) :-
+    current_prolog_flag(threads, false),
+    !,
+    server(Queue, _, Handle, State),
+    here(Queue, begin_here(State, Handle, Queue)).
 make_thread(Queue) :-
     server(Queue, Role, Handle, State),
     flag(typhon_server, N, N+1),
@@ -106,7 +117,10 @@ unregister(Queue, Thread) :-
 
 stop(none, Queue) :-
     !,
-    close_queue(Queue).
+    leave(none, Queue).
+stop(here, Queue) :-
+    !,
+    leave(here, Queue).
 stop(Thread, Queue) :-
     thread_self(Thread),
     !,
@@ -117,8 +131,16 @@ stop(Thread, Queue) :-
     close_queue(Queue).
 
 leave(none, Queue) :-
+    resting(Queue, _, _),
+    !,
+    thread_send_message(Queue, '$leave'),
+    serve_waiting(Queue).
+leave(none, Queue) :-
     !,
     close_queue(Queue).
+leave(here, Queue) :-
+    !,
+    thread_send_message(Queue, '$leave').
 leave(Thread, Queue) :-
     thread_detach(Thread),
     thread_send_message(Queue, '$leave').
@@ -191,6 +213,8 @@ answer(Caller, Result) :-
 server_check(Queue) :-
     (   serving(Queue, _)
     ->  true
+    ;   resting(Queue, _, _)
+    ->  serve_waiting(Queue)
     ;   with_mutex(typhon_server, replace_thread(Queue))
     ).
 
@@ -215,6 +239,63 @@ no_thread(Formal, Queue) :-
     print_message(error, typhon(no_server(Role, Formal))).
 
                 /*******************************
+                *        WITHOUT THREADS       *
+                *******************************/
+
+:- meta_predicate here(+, 0).
+
+%   here(+Queue, :Goal): call Goal as its server.  The server may be called by
+%   the handler of another.
+
+here(Queue, Goal) :-
+    ( server_self(Outer) -> true ; Outer = none ),
+    setup_call_cleanup(
+        ( assertz(serving(Queue, here)),
+          nb_setval(typhon_server, Queue) ),
+        Goal,
+        ( retractall(serving(Queue, here)),
+          nb_setval(typhon_server, Outer) )).
+
+begin_here(State0, Handle, Queue) :-
+    handle_message(begin, Handle, State0, State),
+    rest_or_serve(State, Handle, Queue).
+
+serve_waiting(Queue) :-
+    retract(resting(Queue, Handle, Next)),
+    !,
+    here(Queue, rest_or_serve(Next, Handle, Queue)).
+
+rest_or_serve(Next, Handle, Queue) :-
+    (   waiting_message(Next, Queue, Message)
+    ->  ( Next = until(_, State) -> true ; State = Next ),
+        serve_here(Message, State, Handle, Queue)
+    ;   assertz(resting(Queue, Handle, Next))
+    ).
+
+waiting_message(_, Queue, Message) :-
+    thread_peek_message(Queue, _),
+    !,
+    thread_get_message(Queue, Message).
+waiting_message(until(Stamp, _), _, timeout) :-
+    number(Stamp),
+    monotonic_time(Now),
+    Stamp =< Now.
+
+serve_here(Message, State, Handle, Queue) :-
+    ending(Message),
+    !,
+    ignore(call(Handle, stop, State, _)),
+    close_queue(Queue).
+serve_here(Message, State, Handle, Queue) :-
+    catch(handle_message(Message, Handle, State, Next), Ball, report_error(Ball)),
+    (   nonvar(Next)
+    ->  rest_or_serve(Next, Handle, Queue)
+    ;   server(Queue, _, Handle, First)
+    ->  begin_here(First, Handle, Queue)
+    ;   close_queue(Queue)              % stopped meanwhile
+    ).
+
+                /*******************************
                 *           THE THREAD         *
                 *******************************/
 
@@ -223,7 +304,8 @@ no_thread(Formal, Queue) :-
 %   This thread belongs to Server.
 
 server_self(Server) :-
-    nb_current(typhon_server, Server).
+    nb_current(typhon_server, Server),
+    Server \== none.
 
 serve(Queue, Handle, State) :-
     nb_setval(typhon_server, Queue),
@@ -244,12 +326,6 @@ rethrow_abort(Ball) :-
     ;   true
     ).
 
-serve_from(begin, State0, Handle, Queue, End) :-
-    !,
-    (   call(Handle, begin, State0, Next)
-    ->  serve_next(Next, Handle, Queue, End)
-    ;   serve_next(State0, Handle, Queue, End)
-    ).
 serve_from(Message, State, Handle, _, Message) :-
     ending(Message),
     !,
@@ -275,6 +351,9 @@ next(Stamp, Queue, Message) :-
     ;   Message = timeout
     ).
 
+handle_message(begin, Handle, State0, State) :-
+    !,
+    ( call(Handle, begin, State0, State1) -> State = State1 ; State = State0 ).
 handle_message(call(Request, Caller), Handle, State0, State) :-
     !,
     catch(must_handle(call(Request, Caller), Handle, State0, State), Ball,
