@@ -115,7 +115,7 @@ seen(found, found).
 :- if(\+ predicate_property(system:message_queue_create(_), defined)).
 
 :- dynamic
-    queue/1,                    % Queue
+    queue/2,                    % Queue, Size
     message/2.                  % Queue, Message
 
 system:message_queue_create(Queue) :-
@@ -123,17 +123,16 @@ system:message_queue_create(Queue) :-
 system:message_queue_create(Queue, _Options) :-
     typhon_fifo:create(Queue).
 system:message_queue_destroy(Queue) :-
-    typhon_fifo:must_exist(Queue),
-    retractall(typhon_fifo:queue(Queue)),
+    typhon_fifo:size(Queue, _),
+    retractall(typhon_fifo:queue(Queue, _)),
     retractall(typhon_fifo:message(Queue, _)).
 system:message_queue_property(Queue, size(Size)) :-
-    typhon_fifo:must_exist(Queue),
-    aggregate_all(count, typhon_fifo:message(Queue, _), Size).
+    typhon_fifo:size(Queue, Size).
 system:thread_send_message(Queue, Message) :-
-    typhon_fifo:must_exist(Queue),
+    typhon_fifo:add(Queue, 1),
     assertz(typhon_fifo:message(Queue, Message)).
 system:thread_peek_message(Queue, Message) :-
-    typhon_fifo:must_exist(Queue),
+    typhon_fifo:size(Queue, _),
     typhon_fifo:message(Queue, Message),
     !.
 system:thread_get_message(Queue, Message) :-
@@ -142,9 +141,10 @@ system:thread_get_message(Queue, Message) :-
     ;   throw(error(system_error(deadlock), _))
     ).
 system:thread_get_message(Queue, Message, _Options) :-
-    typhon_fifo:must_exist(Queue),
+    typhon_fifo:size(Queue, _),
     retract(typhon_fifo:message(Queue, Message)),
-    !.
+    !,
+    typhon_fifo:add(Queue, -1).
 system:mutex_create(Mutex) :-
     gensym('typhon mutex ', Mutex).
 system:mutex_destroy(_).
@@ -155,12 +155,20 @@ create(Queue) :-
     ->  gensym('typhon queue ', Queue)
     ;   true
     ),
-    assertz(queue(Queue)).
+    assertz(queue(Queue, 0)).
 
-must_exist(Queue) :-
-    (   queue(Queue)
-    ->  true
+size(Queue, Size) :-
+    (   queue(Queue, Size0)
+    ->  Size = Size0
     ;   throw(error(existence_error(message_queue, Queue), _))
     ).
+
+%   Counted here, as a full mailbox is asked for its size with each message.
+
+add(Queue, More) :-
+    size(Queue, Size0),
+    retractall(queue(Queue, _)),
+    Size is Size0+More,
+    assertz(queue(Queue, Size)).
 
 :- endif.
