@@ -46,4 +46,14 @@ came(server_defers, [later,first,begun]).
 came(server_raises, oops-[begun]).
 came(server_stops_itself, stopped-[begun]).
 came(server_times_out, [timeout,soon,begun]).
+came(virtual_time_jumps, done-12.0).
+came(virtual_timeout, timeout-7.0).
+came(virtual_nothing_can_happen, raised(no_agent_can_run)).
+came(virtual_random_is_apart, same).
+came(virtual_state, virtual/5).
+came(virtual_steps, [2.0,4.0,6.0,8.0]).
+came(virtual_slices, [0.0,8.0]).
+came(virtual_pace, soon-5.0).
+came(virtual_program, [there,there,timeout,done,4.0]).
+came(virtual_error, done).
 came(loaded, []).

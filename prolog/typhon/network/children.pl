@@ -7,7 +7,7 @@
             child_release/1             % +Child
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(process), [process_kill/2, process_wait/2]).
+:- autoload(library(process), [process_kill/2, process_wait/2]).
 :- autoload(library(readutil), [read_line_to_string/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../kernel/base/prolog_faults', [spawn/3]).

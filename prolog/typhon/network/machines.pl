@@ -10,7 +10,7 @@
 :- use_module(library(error), [domain_error/2, must_be/2, type_error/2]).
 :- use_module(library(lists), [append/3, last/2]).
 :- use_module(library(option), [option/3]).
-:- use_module(library(process),
+:- autoload(library(process),
               [process_kill/2, process_wait/2, process_wait/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../kernel/base/options', [check_options/2]).

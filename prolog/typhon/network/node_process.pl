@@ -6,7 +6,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
-:- use_module(library(process), [process_kill/2]).
+:- autoload(library(process), [process_kill/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../kernel/base/error_text', [print_error/2]).
 :- use_module('../kernel/base/error_lines', [error_text/2]).

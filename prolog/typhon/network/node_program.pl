@@ -5,7 +5,7 @@
             node_programs/1             % +Count
           ]).
 :- use_module(library(lists), [append/3]).
-:- use_module(library(process), [process_wait/2]).
+:- autoload(library(process), [process_wait/2]).
 :- use_module('../kernel/base/prolog_faults', [installed_swipl/2, spawn/3]).
 
 /** <module> What the child processes of a network run

@@ -4,7 +4,7 @@
           ]).
 :- use_module(library(lists), [append/2, member/2, nth0/3]).
 :- use_module(library(option), [option/3]).
-:- use_module(library(process),
+:- autoload(library(process),
               [process_kill/2, process_wait/2, process_wait/3]).
 :- use_module(library(settings), [setting/2]).
 :- use_module('../kernel/base/prolog_faults', [spawn/3]).

@@ -32,8 +32,7 @@ The hosts of the process have no endpoint that other processes could reach.
     typhon_time:starts/1,
     typhon_time:stops/1,
     typhon_time:wait/4,
-    typhon_time:work/2,
-    prolog:error_message//1.
+    typhon_time:work/2.
 
 :- dynamic run_queue/1.         % Queue
 
@@ -151,6 +150,3 @@ take_work(Work) :-
 
 again(Work) :-
     typhon_time:work(single, Work).
-
-prolog:error_message(no_agent_can_run) -->
-    [ 'This wait cannot end: no agent is ready, and no alarm is set' ].

@@ -9,9 +9,11 @@
 :- use_module('../kernel/host', [agent_parked/1]).
 :- use_module(virtual/virtual_loop,
               [ virtual_alone/0, virtual_begin/0, virtual_doing/1,
-                virtual_end/0, virtual_loop/1, virtual_now/1,
+                virtual_end/0, virtual_goes_on/1, virtual_here/1,
+                virtual_loop/1, virtual_now/1, virtual_rests/0,
                 virtual_state/1, virtual_steps/1 ]).
-:- use_module(virtual/virtual_pace, [pace/1]).
+:- use_module(virtual/virtual_pace,
+              [pace/1, pace_set/2, pace_slice/1, pace_slice_end/0]).
 
 /** <module> The runtime `virtual`: simulated time
 
@@ -25,6 +27,9 @@ waits, inspects them, and waits again gets the same results in each run.
 
 A native goal takes no virtual time.  A native goal that does not end, and
 agents that never leave one instant, are reported.
+
+In a Prolog without threads the work is done in the thread of the caller, from
+the moment when it waits until its message is there.
 
 *Threading*: any thread may call.  Calls of two threads at the same time are
 queued in any order; runs are repeatable only if a single thread calls.
@@ -54,7 +59,7 @@ queued in any order; runs are repeatable only if a single thread calls.
            "Virtual time that stands still for so long is reported").
 
 :- dynamic
-    loop/2.                             % Thread, Queue
+    loop/2.                             % Thread, or `here` without threads, Queue
 
 typhon_options:declared(host_option, clock(Kind), oneof([virtual]), Kind).
 
@@ -72,18 +77,35 @@ typhon_time:clock(virtual, typhon_virtual_now).
 typhon_time:starts(virtual) :-
     message_queue_create(Queue),
     virtual_begin,
-    thread_create(virtual_loop(Queue), Thread,
-                  [alias(typhon_virtual_time)]),
+    loop_begin(Queue, Thread),
     assertz(loop(Thread, Queue)).
 
 typhon_time:stops(virtual) :-
     retract(loop(Thread, Queue)),
     !,
     virtual_end,
+    loop_end(Thread, Queue),
+    message_queue_destroy(Queue).
+
+loop_begin(Queue, here) :-
+    current_prolog_flag(threads, false),
+    !,
+    virtual_here(Queue).
+loop_begin(Queue, Thread) :-
+    thread_create(virtual_loop(Queue), Thread,
+                  [alias(typhon_virtual_time)]).
+
+loop_end(here, _) :-
+    !.
+loop_end(Thread, Queue) :-
     thread_send_message(Queue, held(let_go)),
     thread_send_message(Queue, ask(stop)),
-    stop_thread(Thread),
-    message_queue_destroy(Queue).
+    stop_thread(Thread).
+
+loop_goes_on(here, Queue) :-
+    !,
+    virtual_goes_on(Queue).
+loop_goes_on(_, _).
 
                 /*******************************
                 *        WORK AND ALARMS       *
@@ -113,7 +135,7 @@ typhon_time:signal(virtual, Goal) :-
     signal(Goal).
 
 signal(Goal) :-
-    forall(loop(Thread, _),
+    forall(( loop(Thread, _), Thread \== here ),
            catch(thread_signal(Thread, Goal),
                  error(existence_error(_, _), _), true)).
 
@@ -128,12 +150,16 @@ signal(Goal) :-
 typhon_time:hold(virtual, Seconds) :-
     (   own_thread
     ->  true
+    ;   loop(here, _)                   % time runs in this thread alone
+    ->  true
     ;   ask_loop(ask(hold(Reply)), Reply, Seconds, held)
     ).
 
 typhon_time:state(virtual, State) :-
     (   own_thread
     ->  virtual_state(State)
+    ;   loop(here, _)
+    ->  ask_loop(ask(state(Reply)), Reply, inf, State)
     ;   ask_loop(held(state(Reply)), Reply, inf, State)
     ).
 
@@ -145,7 +171,10 @@ typhon_time:let_go(virtual, []) :-
 
 own_thread :-
     loop(Thread, _),
-    thread_self(Thread).
+    (   Thread == here
+    ->  \+ virtual_rests
+    ;   thread_self(Thread)
+    ).
 
 typhon_time:again(virtual, State, Agents) :-
     ask_loop(ask(restore(State, Reply)), Reply, inf, done),
@@ -158,10 +187,11 @@ has_turn(_, Agent) :-
     agent_parked(Agent).
 
 ask_loop(Request, Reply, Seconds, Answer) :-
-    loop(_, Loop),
+    loop(Thread, Loop),
     setup_call_cleanup(
         message_queue_create(Reply),
         ( thread_send_message(Loop, Request),
+          loop_goes_on(Thread, Loop),
           wait_within(Seconds, thread_get_message(Reply, Answer))
         ),
         message_queue_destroy(Reply)).
@@ -176,8 +206,13 @@ ask_loop(Request, Reply, Seconds, Answer) :-
 %   Set the pace of virtual time: `paused`, `step`, rate(Speed), in virtual
 %   seconds per second, or `free`, the default; get it, except `free`.  After
 %   `step` no agent is ready; fails if one still is after ten seconds, if no
-%   caller waits, and if there is no virtual time.
+%   caller waits, and if there is no virtual time.  Without threads virtual_run/4
+%   does the step.
 
+virtual_pace(Pace) :-
+    loop(here, _),
+    !,
+    pace_set(Pace, none).
 virtual_pace(Pace) :-
     ask_loop(ask(pace(Pace, Reply)), Reply, 10, set).
 
@@ -206,17 +241,79 @@ typhon_time:wait(virtual, Queue, Message, Stamp) :-
     thread_get_message(Queue, Message).
 
 wait_until_message(Queue, Stamp) :-
+    program_waits(Queue, Stamp, Answer),
+    !,
+    Answer == there.
+wait_until_message(Queue, Stamp) :-
+    \+ own_thread,
     loop(Thread, Loop),
-    \+ thread_self(Thread),
     setup_call_cleanup(
         message_queue_create(Reply),
         ( thread_send_message(Loop, ask(wait(Reply, Queue, Stamp))),
+          loop_goes_on(Thread, Loop),
           answer(Reply, Answer)
         ),
         ( send_loop(ask(cancel(Reply))),
           message_queue_destroy(Reply)
         )),
     Answer == there.
+
+                /*******************************
+                *       TIME IN SLICES         *
+                *******************************/
+
+:- public
+    virtual_run/4,
+    virtual_program/2.
+
+:- meta_predicate virtual_program(0, -).
+
+%   virtual_run(+Queue, +Stamp, +Seconds, -When) is semidet.
+%
+%   Without threads: let virtual time run at its pace, without one as fast as
+%   possible, until Queue holds a message or until Stamp, but only for about
+%   Seconds of real time.  An event loop calls this again, and handles other
+%   events in between.  When is `there`; `late`; after(More), if there is more to
+%   do after More seconds of real time; or `rests`, if not before there is another
+%   pace, or more work.  Fails if there is no virtual time, or in it.
+
+virtual_run(Queue, _, _, there) :-
+    has_messages(Queue),
+    !.
+virtual_run(Queue, Stamp, Seconds, When) :-
+    loop(here, Loop),
+    \+ own_thread,
+    ( pace(_) -> true ; pace_set(rate(inf), none) ),
+    setup_call_cleanup(
+        ( message_queue_create(Reply),
+          pace_slice(Seconds) ),
+        ( thread_send_message(Loop, ask(wait(Reply, Queue, Stamp))),
+          virtual_goes_on(Loop),
+          thread_get_message(Reply, When)
+        ),
+        ( pace_slice_end,
+          send_loop(ask(cancel(Reply))),
+          message_queue_destroy(Reply)
+        )).
+
+%   virtual_program(:Goal, -Engine) is det.
+%
+%   Engine runs Goal.  When Goal waits for virtual time, engine_next/2 and
+%   engine_post/3 give virtual_wait(Queue, Stamp), for virtual_run/4; then Engine
+%   expects `there` or `late` by engine_post/3.
+
+virtual_program(Goal, Engine) :-
+    engine_create(ended, typhon_virtual:program(Goal), Engine).
+
+program(Goal) :-
+    nb_setval(typhon_virtual_program, true),
+    call(Goal).
+
+program_waits(Queue, Stamp, Answer) :-
+    nb_current(typhon_virtual_program, true),
+    \+ own_thread,
+    engine_yield(virtual_wait(Queue, Stamp)),
+    engine_fetch(Answer).
 
 has_messages(Queue) :-
     message_queue_property(Queue, size(Size)),

@@ -1,6 +1,8 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(typhon/kernel)).
 :- use_module(library(typhon/kernel/base/server)).
+:- use_module(library(typhon/kernel/host), [time_now/1, time_state/1]).
+:- use_module(library(typhon/options/virtual)).
 
 /*  Agents without threads, sockets and processes: main/0 prints a fact for
     each step, see test_single.pl and test_wasm.pl. */
@@ -12,6 +14,7 @@ main :-
     link(a, b),
     forall(step(Name, Goal), tell(Name, Goal)),
     forall(member(Host, [a, b, full]), host_stop(Host)),
+    forall(virtual_step(Name, Goal), tell(Name, in_virtual_time(Goal))),
     tell(loaded, foreign_parts).
 
 tell(Name, Goal) :-
@@ -212,6 +215,161 @@ server_times_out(List) :-
 
 started(Server) :-
     server_start(life, handle, [], Server).
+
+                /*******************************
+                *          VIRTUAL TIME        *
+                *******************************/
+
+virtual_step(virtual_time_jumps, jumps).
+virtual_step(virtual_timeout, virtual_timeout).
+virtual_step(virtual_nothing_can_happen, virtual_never).
+virtual_step(virtual_random_is_apart, random_apart).
+virtual_step(virtual_state, virtual_saved).
+virtual_step(virtual_steps, stepwise).
+virtual_step(virtual_slices, slices).
+virtual_step(virtual_pace, paces).
+virtual_step(virtual_program, beside) :-
+    current_prolog_flag(emscripten, true).  % elsewhere engines need threads
+virtual_step(virtual_error, loop_fails).
+
+:- meta_predicate in_virtual_time(1, -).
+
+in_virtual_time(Goal, Result) :-
+    setup_call_cleanup(
+        ( host_start(v, [clock(virtual)]),
+          host_start(w, [clock(virtual)]) ),
+        once(call(Goal, Result)),
+        ( host_stop(v), host_stop(w) )).
+
+%   The agent is at w after 2, at v after 4 seconds, and so on.
+
+commuter(Rounds, Agent) :-
+    agent_create(clauses([ (:- agent(commuter, [state([left/1])])),
+                           (main :- retract(left(0))),
+                           (main :- retract(left(N)), N1 is N-1,
+                                    assertz(left(N1)),
+                                    sleep(2), move(w), sleep(2), move(v),
+                                    main) ]),
+                 Agent, [host(v), facts([left(Rounds)])]).
+
+jumps(Outcome-Now) :-
+    commuter(3, Agent),
+    agent_join(Agent, Outcome, 100),
+    time_now(Now).
+
+virtual_timeout(Outcome-Now) :-
+    commuter(3, Agent),
+    agent_join(Agent, Outcome, 7),
+    time_now(Now),
+    agent_dispose(Agent).
+
+virtual_never(_) :-
+    agent_create(clauses([ (:- agent(waiter, [])), (main :- receive(_)) ]),
+                 Agent, [host(v)]),
+    agent_join(Agent, _, inf).
+
+%   What agents draw, and what the caller draws, does not depend on each other.
+
+random_apart(Same) :-
+    draws([], Drawn1, Agent1),
+    draws([_, _, _], Drawn2, Agent2),
+    ( Drawn1-Agent1 == Drawn2-Agent2 -> Same = same ; Same = different ).
+
+draws(More, Mine, Theirs) :-
+    typhon_time:time_seed(1),
+    set_random(seed(7)),
+    gambler(Theirs0),
+    set_random(seed(7)),
+    maplist([X]>>random_between(1, 1 000 000, X), More),
+    set_random(seed(7)),
+    random_between(1, 1 000 000, Before),
+    gambler(Theirs1),
+    random_between(1, 1 000 000, After),
+    Mine = Before-After,
+    Theirs = Theirs0-Theirs1.
+
+gambler(Result) :-
+    agent_create(clauses([ (:- agent(gambler, [])),
+                           (main :- random_between(1, 1 000 000, X),
+                                    result(X)) ]),
+                 Agent, [host(v)]),
+    agent_result(Agent, Result, 1).
+
+virtual_saved(Name/Arity) :-
+    time_state(State),
+    functor(State, Name, Arity).
+
+%   A step is to the next instant at which something is due.
+
+stepwise(Times) :-
+    commuter(2, _),
+    findall(Now, ( between(1, 4, _), step(Now) ), Times).
+
+step(Now) :-
+    virtual_pace(step),
+    run_for(10, rests),
+    time_now(Now).
+
+run_for(Seconds, When) :-
+    message_queue_create(Queue),
+    typhon_virtual:virtual_run(Queue, inf, Seconds, When),
+    message_queue_destroy(Queue).
+
+%   With no real time left, time stands still; then it runs on.
+
+slices(Times) :-
+    commuter(2, Agent),
+    virtual_pace(rate(inf)),
+    run_for(0, after(Seconds)),
+    Seconds =:= 0,
+    time_now(T0),
+    run_for(10, rests),
+    time_now(T1),
+    agent_join(Agent, done, 1),
+    Times = [T0, T1].
+
+%   Hundred virtual seconds a second.
+
+paces(Waits-Now) :-
+    commuter(1, _),
+    virtual_pace(rate(100)),
+    run_for(10, after(Seconds)),
+    ( Seconds > 0, Seconds =< 0.1 -> Waits = soon ; Waits = Seconds ),
+    agents_run(5),
+    time_now(Now),
+    virtual_pace(free).
+
+%   A program that waits runs beside the caller.
+
+beside(Times) :-
+    typhon_virtual:virtual_program(user:twice, Engine),
+    engine_next(Engine, virtual_wait(Queue1, Stamp1)),
+    virtual_pace(rate(inf)),
+    typhon_virtual:virtual_run(Queue1, Stamp1, 10, How1),
+    engine_post(Engine, How1, virtual_wait(Queue2, Stamp2)),
+    typhon_virtual:virtual_run(Queue2, Stamp2, 10, How2),
+    engine_post(Engine, How2, ended),
+    engine_destroy(Engine),
+    retract(result(Result)),
+    Times = [How1, How2|Result].
+
+:- dynamic result/1.
+
+twice :-
+    commuter(1, Agent),
+    agent_join(Agent, Outcome, 3),
+    agent_join(Agent, Outcome1, 3),
+    time_now(Now),
+    assertz(result([Outcome, Outcome1, Now])).
+
+%   A limit of the caller ends the agent that reaches it, not the loop.
+
+loop_fails(Outcome) :-
+    commuter(1 000 000, Agent),
+    call_with_inference_limit(agent_join(Agent, _, inf), 100 000, _),
+    catch(agent_dispose(Agent), error(existence_error(_, _), _), true),
+    commuter(1, Other),
+    agent_join(Other, Outcome, 100).
 
 %   Features that browsers lack, and whether there is another thread.
 

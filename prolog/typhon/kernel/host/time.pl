@@ -88,7 +88,8 @@ experiments are written in host seconds and run as fast as Rate says.
     due/4,                              % Kind, Agent, Token, Stamp: see time_due/3
     seed/2,                             % Kind, Seed: see time_seed/1
     state/2,                            % Kind, State: see time_state/1
-    again/3.                            % Kind, State, Agents: see time_again/2
+    again/3,                            % Kind, State, Agents: see time_again/2
+    prolog:error_message//1.
 
 %!  time_kind(?Kind) is semidet.
 %
@@ -401,3 +402,8 @@ host_time(Host, Seconds) :-
 real_time(Host, Seconds, Stamp) :-
     clock(Host, Epoch, Rate),
     Stamp is Epoch+Seconds/Rate.
+
+%   Runtimes without threads raise this.
+
+prolog:error_message(no_agent_can_run) -->
+    [ 'This wait cannot end: no agent is ready, and no alarm is set' ].

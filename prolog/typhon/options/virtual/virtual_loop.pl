@@ -2,6 +2,9 @@
           [ virtual_begin/0,
             virtual_end/0,
             virtual_loop/1,             % +Queue
+            virtual_here/1,             % +Queue
+            virtual_goes_on/1,          % +Queue
+            virtual_rests/0,
             virtual_now/1,              % -Stamp
             virtual_steps/1,            % -Count
             virtual_doing/1,            % -Work
@@ -16,9 +19,10 @@
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/base/fifo', [fifo_empty/2]).
-:- use_module('../../kernel/base/monotonic', [wait_before/2]).
+:- use_module('../../kernel/base/monotonic', [monotonic_time/1, wait_before/2]).
 :- use_module('../../kernel/host', [work_do/2]).
-:- use_module(virtual_pace, [pace/1, pace_deadline/4, pace_set/2]).
+:- use_module(virtual_pace,
+              [pace/1, pace_deadline/4, pace_set/2, pace_slice_over/2]).
 
 /** <module> The thread of virtual time
 
@@ -39,10 +43,14 @@ The thread reads these messages from one queue:
   |                                 | `held`                                |
   | held(state(Reply))              | during a pause: Reply gets the state  |
   |                                 | of virtual time                       |
+  | ask(state(Reply))               | Reply gets that state                 |
   | ask(restore(State, Reply))      | restore that state; Reply gets `done` |
 
 Virtual time stands still while no caller waits.  The thread then reads ask(_)
 alone; work and alarms stay in the queue.
+
+Without threads the loop runs in the thread of the caller, and rests, that is,
+returns to it, when no caller waits.  Then the alarms are kept as a fact.
 
 *Threading*: the heap of alarms and the list of waiting callers are on the
 stack of this thread. The time and the number of steps are flags, which any
@@ -53,6 +61,13 @@ thread may read. The thread is no `server`: it selects messages by their form.
     typhon_scheduler:fire/2,            % Agent, Token: an alarm fires
     typhon_scheduler:over/2,            % Agent, Token: the alarm is obsolete
     prolog:message//1.
+
+:- dynamic
+    rests/2,                            % Alarms, Random: without threads, when
+                                        % the loop last returned to its caller
+    runs/0.                             % without threads: the loop runs
+
+:- meta_predicate here(0).
 
 %!  virtual_begin is det.
 %
@@ -70,7 +85,8 @@ virtual_begin :-
 %   the loop survives an abort.
 
 virtual_end :-
-    flag(typhon_virtual_ends, _, 1).
+    flag(typhon_virtual_ends, _, 1),
+    retractall(rests(_, _)).
 
 %!  virtual_loop(+Queue) is det.
 %
@@ -82,6 +98,45 @@ virtual_loop(Queue) :-
     set_random(seed(1)),
     empty_heap(Alarms),
     wait_for_request(Queue, alarms(0, Alarms)).
+
+%!  virtual_here(+Queue) is det.
+%
+%   As virtual_loop/1 without threads, until the loop rests.
+
+virtual_here(Queue) :-
+    here(virtual_loop(Queue)).
+
+%!  virtual_goes_on(+Queue) is det.
+%
+%   Without threads: process Queue until no caller waits.
+
+virtual_goes_on(Queue) :-
+    rests(Alarms, Random),
+    !,
+    here(( set_random(state(Random)),
+           wait_for_request(Queue, Alarms) )).
+
+%!  virtual_rests is semidet.
+%
+%   Without threads: the loop does not run.
+
+virtual_rests :-
+    \+ runs.
+
+%   Agents do not share the random generator of the caller.
+
+here(Goal) :-
+    random_property(state(Random)),
+    setup_call_cleanup(
+        assertz(runs),
+        Goal,
+        ( retractall(runs),
+          set_random(state(Random)) )).
+
+rest(Alarms) :-
+    random_property(state(Random)),
+    retractall(rests(_, _)),
+    assertz(rests(Alarms, Random)).
 
 %!  virtual_now(-Stamp:float) is det.
 %
@@ -170,8 +225,16 @@ restore_state(virtual(Now, Random, Count, Alarms, Messages), Queue,
 %   at(Stamp, Number).
 
 wait_for_request(Queue, Alarms) :-
-    thread_get_message(Queue, ask(Request)),
-    handle_request(Request, [], Queue, Alarms).
+    (   next_request(Queue, Request)
+    ->  handle_request(Request, [], Queue, Alarms)
+    ;   rest(Alarms)
+    ).
+
+next_request(Queue, Request) :-
+    (   current_prolog_flag(threads, false)
+    ->  thread_get_message(Queue, ask(Request), [timeout(0)])
+    ;   thread_get_message(Queue, ask(Request))
+    ).
 
 handle_request(stop, Waiting, _, _) :-
     !,
@@ -187,6 +250,11 @@ handle_request(hold(Reply), Waiting, Queue, Alarms) :-
     ->  hold(Queue, Alarms)
     ;   true                            % the caller has given up
     ),
+    run(Waiting, Queue, Alarms).
+handle_request(state(Reply), Waiting, Queue, Alarms) :-
+    !,
+    loop_state(Queue, Alarms, State),
+    ignore(send(Reply, State)),
     run(Waiting, Queue, Alarms).
 handle_request(restore(State, Reply), Waiting, Queue, _) :-
     !,
@@ -286,8 +354,18 @@ after_exception(Ball, Left, Waiting, Queue, Alarms) :-
     flag(typhon_virtual_ends, 0, 0),
     !,
     after_work(Left, Waiting, Queue, Alarms).
-after_exception(Ball, _, Waiting, _, _) :-
+after_exception(Ball, _, Waiting, _, Alarms) :-
     reply_late(Waiting),
+    fails(Ball, Alarms).
+
+%   Without threads the next caller begins again.
+
+fails(Ball, Alarms) :-
+    (   current_prolog_flag(threads, false)
+    ->  nb_linkval(typhon_virtual_work, none),
+        rest(Alarms)
+    ;   true
+    ),
     throw(Ball).
 
 aborted('$aborted').
@@ -313,6 +391,21 @@ advance(Waiting, Queue, alarms(Count, Heap0)) :-
 advance(Waiting, Queue, Alarms) :-
     jump(Waiting, Queue, Alarms).
 
+wait_for_message(Deadline, Waiting, Queue, Alarms) :-
+    pace_slice_over(Deadline, When),
+    !,
+    reply_all(Waiting, When),
+    wait_for_request(Queue, Alarms).
+wait_for_message(Deadline, Waiting, Queue, Alarms) :-
+    current_prolog_flag(threads, false),
+    !,
+    (   Deadline == inf
+    ->  fails(error(no_agent_can_run, _), Alarms)
+    ;   monotonic_time(Now),
+        Seconds is max(0, Deadline-Now),
+        sleep(Seconds),
+        advance(Waiting, Queue, Alarms)
+    ).
 wait_for_message(Deadline, Waiting, Queue, Alarms) :-
     (   wait_before(Deadline, thread_get_message(Queue, Message))
     ->  step(Message, 0, Waiting, Queue, Alarms)
@@ -351,6 +444,8 @@ jump(Waiting, Queue, alarms(Count, Heap)) :-
         partition(ends_at(End), Waiting, Late, Waiting1),
         reply_late(Late),
         run(Waiting1, Queue, alarms(Count, Heap))
+    ;   current_prolog_flag(threads, false)
+    ->  fails(error(no_agent_can_run, _), alarms(Count, Heap))
     ;   print_message(warning, typhon(virtual_nothing_due)),
         thread_get_message(Queue, Message),
         step(Message, 0, Waiting, Queue, alarms(Count, Heap))
@@ -397,7 +492,7 @@ notify_satisfied(Waiting, Waiting) :-
     !.
 notify_satisfied(Waiting0, Waiting) :-
     partition(is_satisfied, Waiting0, Satisfied, Waiting),
-    forall(member(waits(Reply, _, _), Satisfied), reply(Reply, there)).
+    reply_all(Satisfied, there).
 
 is_satisfied(Waits) :-
     \+ none_satisfied([Waits]).
@@ -409,7 +504,10 @@ none_satisfied([waits(_, Queue, _)|Waiting]) :-
     none_satisfied(Waiting).
 
 reply_late(Waiting) :-
-    forall(member(waits(Reply, _, _), Waiting), reply(Reply, late)).
+    reply_all(Waiting, late).
+
+reply_all(Waiting, Answer) :-
+    forall(member(waits(Reply, _, _), Waiting), reply(Reply, Answer)).
 
 reply(Reply, Answer) :-
     ignore(send(Reply, Answer)).        % the caller was interrupted

@@ -1,7 +1,10 @@
 :- module(typhon_virtual_pace,
           [ pace/1,                     % -Pace
             pace_set/2,                 % +Pace, +Reply
-            pace_deadline/4             % +Next, +Now, -Reached, -Deadline
+            pace_deadline/4,            % +Next, +Now, -Reached, -Deadline
+            pace_slice/1,               % +Seconds
+            pace_slice_over/2,          % +Deadline, -When
+            pace_slice_end/0
           ]).
 :- use_module('../../kernel/base/monotonic', [monotonic_time/1]).
 
@@ -14,6 +17,9 @@ A pace makes it wait before each jump:
   | paused      | until there is another pace                                |
   | step        | jumps once, is then `paused`                               |
 
+Without threads time may also run for a slice of real time, after which the
+caller handles other events.
+
 A pace changes neither what is done nor its order.
 
 *Threading*: the thread of virtual time sets it, and reads it with the rest; any
@@ -21,8 +27,9 @@ thread may call pace/1.
 */
 
 :- dynamic
-    pace/1.                     % Pace: rate(Speed), rate(Speed, Real, Time),
+    pace/1,                     % Pace: rate(Speed), rate(Speed, Real, Time),
                                 % paused(Reply) or step(Reply)
+    slice/1.                    % End: a monotonic_time/1
 
 %!  pace(-Pace) is semidet.
 %
@@ -61,6 +68,11 @@ answer(Reply) :-                        % its owner may have given up
 %   Time may not jump from Now to Next, which may be `inf`, before Deadline, a
 %   monotonic_time/1 or `inf`; meanwhile it is Reached.  Fails if it may jump.
 
+pace_deadline(_, Now, Now, End) :-
+    slice(End),
+    monotonic_time(Real),
+    Real >= End,
+    !.
 pace_deadline(Next, Now, Reached, Deadline) :-
     \+ ( number(Next), Next =< Now ),
     pace(Pace),
@@ -101,3 +113,36 @@ begun(Speed, Real, Now, Next, Now, Deadline) :-
 rest(Reply) :-
     becomes(paused(none)),
     answer(Reply).
+
+                /*******************************
+                *             SLICES           *
+                *******************************/
+
+%!  pace_slice(+Seconds) is det.
+%!  pace_slice_end is det.
+%
+%   Begin a slice of Seconds: when that is over, pace_deadline/4 gives a time that
+%   has passed.  There must be a pace.  End it before its time.
+
+pace_slice(Seconds) :-
+    monotonic_time(Now),
+    End is Now+Seconds,
+    assertz(slice(End)).
+
+pace_slice_end :-
+    retractall(slice(_)).
+
+%!  pace_slice_over(+Deadline, -When) is semidet.
+%
+%   Time has to wait until Deadline: end the slice.  When is after(Seconds), or
+%   `rests` if Deadline is `inf`.  Fails if there is no slice.
+
+pace_slice_over(Deadline, When) :-
+    retract(slice(_)),
+    !,
+    (   Deadline == inf
+    ->  When = rests
+    ;   monotonic_time(Now),
+        Seconds is max(0, Deadline-Now),
+        When = after(Seconds)
+    ).
