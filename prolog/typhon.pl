@@ -22,7 +22,9 @@ a folder, with an interface of the same name beside it:
 :- use_module(typhon/kernel/base/compiling,
               [compiling_begin/1, compiling_end/1]).
 
-:- if(( current_prolog_flag(threads, true), [] \== '[]' )).
+:- if(( ( current_prolog_flag(threads, true)
+        ; current_prolog_flag(emscripten, true) ),
+        [] \== '[]' )).
 
 :- compiling_begin(Flags),
    nb_setval(typhon_flags, Flags).

@@ -114,6 +114,8 @@ seen(found, found).
 
 :- if(\+ predicate_property(system:message_queue_create(_), defined)).
 
+:- use_module(library(gensym), [gensym/2]).
+
 :- dynamic
     queue/2,                    % Queue, Size
     message/2.                  % Queue, Message
