@@ -20,6 +20,8 @@
 :- use_module(engine/store, [run_result/3]).
 :- use_module(engine/studies, [study_load/2, study_title/3]).
 :- use_module(engine/work, [runs_make/4]).
+:- autoload('../prolog/typhon/tools/page', [page_serve/2, page_stop/0]).
+:- use_module(engine/live, []).
 :- autoload('engine/fleet_runs', [fleet_runs/5]).
 :- use_module(engine/worker, [run_here/4]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
@@ -43,6 +45,8 @@ opt_type(replays, replays, boolean).
 opt_type(list,    list,    boolean).
 opt_type(collect, collect, boolean).
 opt_type(real,    real,    boolean).
+opt_type(page,    page,    boolean).
+opt_type(port,    port,    nonneg).
 opt_type(real_runs, real_runs, natural).
 opt_type(means,   means,   boolean).
 opt_type(out,     out,     atom).
@@ -74,6 +78,9 @@ opt_help(list,    "Print a command for each run, and make none [false]").
 opt_help(collect, "Make no runs; show the existing ones [false]").
 opt_help(real,    "Make one case on real sockets, too, and report whether \c
 its measures are within those of virtual time [false]").
+opt_help(page,    "Show one run of the first study on a page, with sliders \c
+for its parameters, until Ctrl-C [false]").
+opt_help(port,    "Of that page; 0: any [8080]").
 opt_help(real_runs, "Runs of that case, in real time [1]").
 opt_help(means,   "Print means and their confidence intervals, too [false]").
 opt_help(out,     "Directory for runs, tables and pictures [out/studies]").
@@ -149,6 +156,13 @@ perform(Plans, Options) :-
     planned_case(Plans, Text, Study, Case),
     make_one(Study, Case, Options).
 perform(Plans, Options) :-
+    option(page(true), Options),
+    !,
+    option(port(Port), Options, 8080),
+    planned(Plans, Options, _, run(Study, _, _)),
+    !,
+    call_cleanup(live_page(Study, Port), page_stop).
+perform(Plans, Options) :-
     option(collect(true), Options),
     !,
     figures(Plans, Options, Missing),
@@ -160,6 +174,13 @@ perform(Plans, Options) :-
     make_real(Plans, Root, Options, RealFailed),
     figures(Plans, Options, Missing),
     halt_unless_none(Failed + Missing + RealFailed).
+
+live_page(Study, Port) :-
+    page_serve([port(Port), overlays([Study]), model(study_live:live(Study))],
+               Link),
+    format('~w~n', [Link]),
+    flush_output,
+    thread_get_message(stop).           % only a signal ends this
 
 make(Runs, Root, Options, Failed) :-
     engine_options(study, Options, Engine),

@@ -2,7 +2,11 @@
           [ run_make/4,                 % +Study, +Case, +Seed, +Directory
             run_log/5,                  % +Study, +Case, +Seed, +File, -Log
             run_again/4,                % +Study, +Case, +Seed, +File
-            run_again/5                 % +Study, +Case, +Seed, +File, :Begin
+            run_again/5,                % +Study, +Case, +Seed, +File, :Begin
+            case_begins/5,              % +Study, +Case0, +Seed, +File, -Case
+            study_network/4,            % +Study, +Case, +Log, -Network
+            study_run/3,                % +Study, +Case, +Network
+            study_view/3                % +Study, +Log, -View
           ]).
 :- use_module('../../prolog/typhon/kernel/base/monotonic', [monotonic_time/1]).
 :- use_module('../../prolog/typhon',
@@ -40,7 +44,7 @@ run_make(Study, Case, Seed, Directory) :-
     monotonic_time(T0),
     statistics(process_cputime, C0),
     run_log(Study, Case, Seed, File, Log),
-    view(Study, Log, View),
+    study_view(Study, Log, View),
     measures(Study, View, Measures),
     monotonic_time(T1),
     statistics(process_cputime, C1),
@@ -55,7 +59,11 @@ run_make(Study, Case, Seed, Directory) :-
              [wall(Wall), cpu(Cpu)], Measures ], Facts),
     result_save(Directory, Facts).
 
-view(Study, Log, View) :-
+%!  study_view(+Study, +Log, -View) is det.
+%
+%   View is what measure/3 of Study gets.
+
+study_view(Study, Log, View) :-
     (   study_says(Study, view/2)
     ->  must(Study, view(Log, View))
     ;   View = Log
@@ -114,7 +122,7 @@ environment(load(Load)) :-
 %   are also in File.
 
 run_log(Study, Case0, Seed, File, Log) :-
-    begin(Study, Case0, Seed, File, Case),
+    case_begins(Study, Case0, Seed, File, Case),
     (   study_says(Study, network/3)
     ->  network_run(Study, Case, log(File), =(_), Hosts),
         log_events(File, Events),
@@ -135,28 +143,27 @@ run_again(Study, Case, Seed, File) :-
 
 run_again(Study, Case0, Seed, File, Begin) :-
     study_says(Study, network/3),
-    begin(Study, Case0, Seed, File, Case),
+    case_begins(Study, Case0, Seed, File, Case),
     network_run(Study, Case, log(File, [hops, messages, faults, links, hosts]),
                 Begin, _).
 
-begin(Study, Case0, Seed, File, Case) :-
+%!  case_begins(+Study, +Case0, +Seed, +File, -Case) is det.
+%
+%   Case is Case0 with the seed, and the directory of the log File.
+
+case_begins(Study, Case0, Seed, File, Case) :-
     file_directory_name(File, Directory),
     Case = Case0.put(_{seed:Seed, directory:Directory}),
     study_at_work(Study),
     set_random(seed(Seed)).
 
 network_run(Study, Case, LogOption, Begin, Hosts) :-
-    must(Study, network(Case, Topology, Options0)),
-    append(Options0,
-           [ clock(Case.clock), processes(Case.processes), seed(Case.seed),
-             LogOption ],
-           Options),
     setup_call_cleanup(
-        network_start(Topology, Network, Options),
+        study_network(Study, Case, LogOption, Network),
         ( network_property(Network, hosts(Hosts)),
           network_property(Network, processes(Pids)),
           call(Begin, Network),
-          on_network(Study, Case, Network),
+          study_run(Study, Case, Network),
           still_there(Pids, Network) ),
         network_stop(Network)).
 
@@ -170,7 +177,20 @@ still_there(Pids, Network) :-
     ;   throw(error(study_processes_ended(Gone), _))
     ).
 
-on_network(Study, Case, Network) :-
+%!  study_network(+Study, +Case, +Log, -Network) is det.
+%!  study_run(+Study, +Case, +Network) is det.
+%
+%   Start the network of Case, with the option Log; make the run on it.
+
+study_network(Study, Case, Log, Network) :-
+    must(Study, network(Case, Topology, Options0)),
+    append(Options0,
+           [ clock(Case.clock), processes(Case.processes), seed(Case.seed),
+             Log ],
+           Options),
+    network_start(Topology, Network, Options).
+
+study_run(Study, Case, Network) :-
     (   study_says(Study, run/2)
     ->  must(Study, run(Case, Network))
     ;   true

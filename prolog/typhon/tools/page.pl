@@ -35,6 +35,7 @@ typhon_options:declared(page_option, bind(X), atom, X).
 typhon_options:declared(page_option, read_only(X), boolean, X).
 typhon_options:declared(page_option, overlays(X), list, X).
 typhon_options:declared(page_option, world(X), callable, X).
+typhon_options:declared(page_option, model(X), callable, X).
 
 %!  page_start(+Options:list) is det.
 %!  page_stop is det.
@@ -53,6 +54,9 @@ typhon_options:declared(page_option, world(X), callable, X).
 %       are shown, besides those of the programs in agents/
 %     - world(+Goal): a view World shows, twice a second, the picture that
 %       call(Goal, Svg) returns; Goal is qualified by its module
+%     - model(Goal): a view Model sets up and runs a program with parameters,
+%       and plots what it measures, by call(Goal, Request), see page/models.pl;
+%       Goal is qualified by its module
 %
 %   page_stop/0 stops the page, and succeeds if there is none.
 %

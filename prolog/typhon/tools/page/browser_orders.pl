@@ -20,6 +20,7 @@
 :- use_module(editor,
               [ name_in/3, on_console/1, problem_dicts/2, program_at/2,
                 read_text/3, saying/2, term_in/4, text_file/3, text_in/3 ]).
+:- use_module(models, [model_set_up/1]).
 :- use_module(overlays, [mechanism_file/2]).
 :- use_module(protocol, [name_text/2, text/2]).
 :- use_module(runs, [run_control/2]).
@@ -49,6 +50,7 @@ and of the operators of mechanisms.  Terms are sent as text.
   | mechanism     | `mechanism`, `predicate`, `arguments`: `hosts` or texts |
   | go, pause, step |                                                       |
   | speed         | `speed`: of virtual time, see module `runs`             |
+  | set_up        | `values`: of the model, see module `models`             |
 
 An answer is _{done, said}: the result, and the printed messages.
 
@@ -177,6 +179,8 @@ run_order(step, Message, "stepped") :-
     run_control(step, Message).
 run_order(speed, Message, "set") :-
     run_control(speed, Message).
+run_order(set_up, Message, "set up") :-
+    model_set_up(Message).
 
 option_in(Message, Option) :-
     host_in(Message, Option).

@@ -25,6 +25,7 @@
                 scene_dict/3, text/2 ]).
 :- autoload(replay, [replay_of_text/3]).
 :- use_module(editor, [name_in/3, on_console/1, text_in/3]).
+:- use_module(models, [model_dict/2]).
 :- use_module(runs, [run_dict/1]).
 :- use_module(sources, [sources_look/1, sources_show/1, sources_tree/1]).
 
@@ -41,6 +42,7 @@
   | tree       |         | supervisors and the agents below them         |
   | world      |         | the picture of the world, SVG                 |
   | run        |         | the state of virtual time, see module `runs`  |
+  | model      | `run`, `since` | what module `models` says               |
   | replay     | `title`, `text` | the log of that text, see module `replay` |
 
 A query changes nothing, and leads only to hosts that the page shows.
@@ -97,6 +99,8 @@ answer(world, _, Svg) :-
     world_picture(Svg).
 answer(run, _, Dict) :-
     run_dict(Dict).
+answer(model, Message, Dict) :-
+    model_dict(Message, Dict).
 answer(replay, Message, Dict) :-
     text_in(title, Message, Title),
     text_in(text, Message, Text),

@@ -1,6 +1,8 @@
 :- module(typhon_page_runs,
           [ run_dict/1,                 % -Dict
             run_control/2,              % +Order, +Message
+            runs_own/1,                 % :Goal
+            runs_rest/0,
             runs_stop/0
           ]).
 :- use_module(library(error), [domain_error/2]).
@@ -15,15 +17,18 @@ step: to the next instant at which something is due.  None of these changes what
 is done, or its order.
 
 Virtual time runs only while a caller waits: from the first order on a thread of
-the page waits.  So time also runs at the speed of the page when other callers
-wait, as in agent_join/3.
+the page waits, unless a model runs, which waits itself.  So time also runs at
+the speed of the page when other callers wait, as in agent_join/3.
 
 *Threading*: a mutex serialises orders; any thread queries.
 */
 
 :- multifile prolog:error_message//1.
 
+:- meta_predicate runs_own(0).
+
 :- dynamic
+    own/1,                      % Thread: in runs_own/1
     waiter/2,                   % Thread, Queue: it waits in virtual time
     speed/1.                    % of the latest order `speed`
 
@@ -106,7 +111,7 @@ paced(Pace) :-
     ).
 
 wait_there :-
-    waiter(_, _),
+    ( waiter(_, _) ; own(_) ),
     !.
 wait_there :-
     paced(paused),                      % else time would run at once
@@ -127,12 +132,29 @@ wait_for_stop(Queue) :-
     ;   true
     ).
 
+%!  runs_own(:Goal) is semidet.
+%
+%   As once(Goal).  Meanwhile the page does not wait: else time would run on
+%   between two waits of Goal.
+
+runs_own(Goal) :-
+    thread_self(Me),
+    setup_call_cleanup(
+        assertz(own(Me)),
+        once(Goal),
+        retractall(own(Me))).
+
+%!  runs_rest is det.
 %!  runs_stop is det.
 %
-%   Virtual time has no pace any more, and runs only while other callers wait.
+%   Virtual time has no pace any more, and runs only while other callers wait;
+%   runs_stop/0 forgets the speed, too.
 
 runs_stop :-
     retractall(speed(_)),
+    runs_rest.
+
+runs_rest :-
     (   waiter(_, _)
     ->  in_own_thread(with_mutex(typhon_page_runs, end_waiter))
     ;   true

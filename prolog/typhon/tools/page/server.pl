@@ -13,6 +13,7 @@
 :- use_module(editor, [editor_start/0, editor_stop/0, on_console/1]).
 :- use_module(guard,
               [page_file/3, request_own/1, token_new/1, token_right/2]).
+:- use_module(models, [model_shown/0, models_start/1, models_stop/0]).
 :- use_module(overlays,
               [ overlays_shown/1, overlays_start/1, overlays_stop/0 ]).
 :- use_module(protocol, [times_stop/0]).
@@ -76,6 +77,7 @@ start_parts(Options) :-
     option(overlays(Files), Options, []),
     overlays_start(Files),
     world_start(Options),
+    models_start(Options),
     browsers_start.
 
 server_stop :-
@@ -90,6 +92,7 @@ stop :-
     ).
 
 stop_parts :-
+    models_stop,
     runs_stop,
     sources_stop,
     times_stop,
@@ -162,8 +165,9 @@ first_frame(_{snapshot:Scene}) :-
     on_console(present_scene(Seen)),
     overlays_shown(Overlays),
     ( world_shown -> World = true ; World = false ),
+    ( model_shown -> Model = true ; Model = false ),
     Scene = Seen.put(_{ read_only:ReadOnly, overlays:Overlays,
-                        orders:Orders, world:World }).
+                        orders:Orders, world:World, model:Model }).
 
                 /*******************************
                 *        QUERIES, ORDERS       *

@@ -13,7 +13,7 @@ const HIGH = 230;
 const MANY = 12;                // programs with a line of their own
 const NONE = '–';
 
-const compact = value => (value === null || value === undefined ? NONE
+export const compact = value => (value === null || value === undefined ? NONE
   : Math.abs(value) >= 1e5 ? value.toExponential(1)
   : String(Math.round(value * 100) / 100));
 
@@ -42,7 +42,10 @@ const PLOTS = [
 
 export const mount = (parent, store, app) => new Charts(parent, store, app);
 
-class Charts extends Picture {
+// A subclass may have other plots, of other data.
+export class Charts extends Picture {
+  get kinds() { return PLOTS; }
+
   constructor(parent, store, app) {
     super(store, app);
     this.body = element('div', { class: 'view-plots', tabindex: 0,
@@ -60,7 +63,7 @@ class Charts extends Picture {
       return;
     }
     this.palette = new Palette(store, this.element);
-    this.plots = PLOTS.map(plot => this.add(plot));
+    this.plots = this.kinds.map(plot => this.add(plot));
     this.observer = new ResizeObserver(() => this.resize());
     this.observer.observe(this.body);
     const later = calmly(store.stamped ? 60 : CALM, () => this.draw());
@@ -167,14 +170,14 @@ class Charts extends Picture {
 
   // -------------------------------------------------------------- saving
 
-  size() { return [this.body.clientWidth, PLOTS.length * (HIGH + 44)]; }
+  size() { return [this.body.clientWidth, this.kinds.length * (HIGH + 44)]; }
 
   async drawAll(pen, width, height) {
     const palette = paperPalette(this.store, this.element), context = this.context();
     pen.fillStyle = palette.bg;
     pen.fillRect(0, 0, width, height);
     let top = 0;
-    for (const plot of PLOTS) {
+    for (const plot of this.kinds) {
       const series = plot.series(context);
       pen.save();
       pen.translate(0, top);

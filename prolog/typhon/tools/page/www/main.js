@@ -20,7 +20,11 @@ const VIEWS = [
   ['sequence', 'Sequence', () => import('./sequence.js')],
   ['replay', 'Replay', () => import('./replay.js')],
   ['world', 'World', () => import('./world.js')],
+  ['model', 'Model', () => import('./model.js')],
 ];
+
+// Views that only some pages have, which then open with them.
+const EXTRA = ['world', 'model'];
 
 const $ = id => document.getElementById(id);
 
@@ -115,7 +119,7 @@ function tabs(app) {
   for (const [name, title] of VIEWS)
     $('tabs').append(button(title, () => app.show(name), { role: 'tab',
       id: `tab-${name}`, 'data-view': name, 'aria-controls': `panel-${name}` }));
-  $('tab-world').hidden = true;
+  for (const name of EXTRA) $(`tab-${name}`).hidden = true;
   $('tabs').addEventListener('keydown', event => {
     const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
     if (!step) return;
@@ -177,7 +181,8 @@ function connect(app) {
     snapshot(snapshot) {
       if (snapshot.read_only !== undefined) setReadOnly(app, snapshot.read_only);
       if (snapshot.orders) app.orders = new Set(snapshot.orders);
-      if (snapshot.world !== undefined) setWorld(app, snapshot.world);
+      for (const name of EXTRA)
+        if (snapshot[name] !== undefined) setExtra(app, name, snapshot[name]);
       app.more = new Map(snapshot.agents.map(agent => [agent.id, agent]));
       store.applySnapshot(snapshot);
       forgetStopped(store, snapshot);
@@ -220,12 +225,11 @@ function setReadOnly(app, readOnly) {
   app.tell('rights');
 }
 
-// If the page has a world, show its tab and open its view.
-function setWorld(app, world) {
-  const tab = $('tab-world');
-  if (tab.hidden === !world) return;
-  tab.hidden = !world;
-  if (world !== (app.view === 'world')) app.show(world ? 'world' : 'map');
+function setExtra(app, name, there) {
+  const tab = $(`tab-${name}`);
+  if (tab.hidden === !there) return;
+  tab.hidden = !there;
+  if (there !== (app.view === name)) app.show(there ? name : 'map');
 }
 
 // While a list is shown, request snapshots at intervals, for data that no event
