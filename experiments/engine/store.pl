@@ -17,7 +17,7 @@
                 directory_member/3, make_directory_path/1 ]).
 :- use_module(library(lists), [append/3, member/2, memberchk/2]).
 :- use_module(library(readutil), [read_file_to_terms/3]).
-:- use_module(library(socket), [gethostname/1]).
+:- autoload(library(socket), [gethostname/1]).
 :- use_module(cases, [case_name/3]).
 :- use_module(sources, [sources_hash/2, text_hash/2]).
 :- use_module(studies, [study_title/3]).

@@ -5,7 +5,7 @@
             browsers_there/0,
             browser_serve/2             % :Scene, +WebSocket
           ]).
-:- use_module(library(http/websocket), [ws_send/2]).
+:- autoload(library(http/websocket), [ws_send/2]).
 :- use_module(library(lists), [reverse/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/base/fifo', [fifo_send/2]).

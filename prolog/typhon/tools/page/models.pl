@@ -16,7 +16,7 @@
 :- use_module('../../kernel/host', [time_kind/1, time_now/1]).
 :- use_module(editor, [read_text/3]).
 :- use_module(protocol, [name_text/2, number_json/2, text/2]).
-:- use_module(runs, [run_control/2, runs_own/1, runs_rest/0]).
+:- use_module(runs, [run_begin/2, run_control/2, run_end/1, runs_rest/0]).
 
 /** <module> A program with parameters, which browsers set up and run
 
@@ -38,13 +38,13 @@ call(Goal, Request), with these requests:
 Numbers that `measures` gives while the model runs are samples, one for each
 time at which a browser asks, but for times at which nothing can have changed.
 
-*Threading*: a mutex serialises requests, but for `run`, for which there is a
-thread.  It ends the run by an exception in that thread.
+*Threading*: a mutex serialises requests, but for `run`, which runs beside the
+page, see run_begin/2.
 */
 
 :- dynamic
     model/1,                    % Goal of the page that is served
-    run_of/3,                   % Number, Thread, Start
+    run_of/3,                   % Number, Run, Start
     ended/2,                    % Number, Text: "" if the run succeeded
     value/2,                    % Name, Value: of the latest set-up
     sample/3.                   % Number, Time, Pairs
@@ -114,9 +114,8 @@ set_up(Goal, Pairs) :-
     ),
     flag(typhon_page_runs, Number, Number+1),
     monotonic_time(Start),
-    thread_create(catch(runs_own(run(Number, Goal)), model_ended, true),
-                  Thread),
-    assertz(run_of(Number, Thread, Start)).
+    run_begin(run(Number, Goal), Run),
+    assertz(run_of(Number, Run, Start)).
 
 must(Goal, Request) :-
     (   call(Goal, Request)
@@ -138,10 +137,8 @@ run(Number, Goal) :-
 
 end_run(Goal) :-
     runs_rest,
-    (   retract(run_of(_, Thread, _))
-    ->  catch(thread_signal(Thread, throw(model_ended)),
-              error(existence_error(_, _), _), true),
-        thread_join(Thread, _),
+    (   retract(run_of(_, Run, _))
+    ->  run_end(Run),
         call(Goal, end)
     ;   true
     ),

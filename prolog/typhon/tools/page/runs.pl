@@ -1,7 +1,8 @@
 :- module(typhon_page_runs,
           [ run_dict/1,                 % -Dict
             run_control/2,              % +Order, +Message
-            runs_own/1,                 % :Goal
+            run_begin/2,                % :Goal, -Run
+            run_end/1,                  % +Run
             runs_rest/0,
             runs_stop/0
           ]).
@@ -9,6 +10,7 @@
 :- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
 :- use_module('../../kernel/host', [time_kind/1, time_now/1, time_wait/3]).
 :- autoload('../../options/virtual', [virtual_pace/1, virtual_paced/1]).
+:- use_module(slices, [slices_begin/1, slices_end/0]).
 
 /** <module> Virtual time under the control of the page
 
@@ -25,10 +27,10 @@ the speed of the page when other callers wait, as in agent_join/3.
 
 :- multifile prolog:error_message//1.
 
-:- meta_predicate runs_own(0).
+:- meta_predicate run_begin(0, -), waiting_itself(0).
 
 :- dynamic
-    own/1,                      % Thread: in runs_own/1
+    own/1,                      % Thread: of run_begin/2
     waiter/2,                   % Thread, Queue: it waits in virtual time
     speed/1.                    % of the latest order `speed`
 
@@ -111,7 +113,10 @@ paced(Pace) :-
     ).
 
 wait_there :-
-    ( waiter(_, _) ; own(_) ),
+    (   waiter(_, _)
+    ;   own(_)
+    ;   current_prolog_flag(threads, false)
+    ),
     !.
 wait_there :-
     paced(paused),                      % else time would run at once
@@ -132,17 +137,33 @@ wait_for_stop(Queue) :-
     ;   true
     ).
 
-%!  runs_own(:Goal) is semidet.
+%!  run_begin(:Goal, -Run) is det.
+%!  run_end(+Run) is det.
 %
-%   As once(Goal).  Meanwhile the page does not wait: else time would run on
-%   between two waits of Goal.
+%   Let Goal run beside the page: in a thread, or in slices, where there are no
+%   threads; end it, wherever it is.  Meanwhile the page does not wait: else time
+%   would run on between two waits of Goal.
 
-runs_own(Goal) :-
+run_begin(Goal, slices) :-
+    current_prolog_flag(threads, false),
+    !,
+    slices_begin(Goal).
+run_begin(Goal, thread(Thread)) :-
+    thread_create(catch(waiting_itself(Goal), run_ended, true), Thread).
+
+waiting_itself(Goal) :-
     thread_self(Me),
     setup_call_cleanup(
         assertz(own(Me)),
-        once(Goal),
+        ignore(Goal),
         retractall(own(Me))).
+
+run_end(slices) :-
+    slices_end.
+run_end(thread(Thread)) :-
+    catch(thread_signal(Thread, throw(run_ended)),
+          error(existence_error(_, _), _), true),
+    thread_join(Thread, _).
 
 %!  runs_rest is det.
 %!  runs_stop is det.

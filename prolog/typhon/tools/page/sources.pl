@@ -92,9 +92,11 @@ sources_stop :-
 %   browser gets the events of all later changes.
 
 sources_look(scene(Hosts, Agents)) :-
-    finder(Finder),
-    ignore(server_cast(Finder, browser)),
-    watch_new_hosts,
+    (   finder(Finder)                  % none where the page runs in a tab
+    ->  ignore(server_cast(Finder, browser)),
+        watch_new_hosts
+    ;   true
+    ),
     take_inventory(1 000 000, Seen, Hosts),
     inventory_agents(Seen, Agents).
 

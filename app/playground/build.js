@@ -1,0 +1,72 @@
+// node app/playground/build.js DIRECTORY: makes the playground there, a static
+// site: the page, SWI-Prolog for WebAssembly, and a saved state in which the
+// platform is loaded.
+
+'use strict';
+const fs = require('fs'), path = require('path');
+const { createHash } = require('crypto');
+
+const root = path.join(__dirname, '../..');
+const wasm = path.join(root, 'test/lib/wasm');
+const page = path.join(root, 'prolog/typhon/tools/page/www');
+const LOADED = ['prolog', 'agents', 'payloads', 'experiments/engine', 'app/playground'];
+const READ = ['agents', 'payloads', 'examples/studies',   // that programs may name
+  ...['allocation', 'hierarchy', 'learning', 'population', 'sieve', 'sync']
+    .map(name => `experiments/${name}`)];
+
+function files(folder) {
+  return fs.readdirSync(path.join(root, folder), { withFileTypes: true })
+    .flatMap(entry => {
+      const name = `${folder}/${entry.name}`;
+      return entry.isDirectory() ? files(name) : name.endsWith('.pl') ? [name] : [];
+    });
+}
+
+const text = name => fs.readFileSync(path.join(root, name), 'utf8');
+
+function write(FS, name, content) {
+  FS.mkdirTree(path.posix.dirname(name));
+  FS.writeFile(name, content);
+}
+
+async function state() {
+  const said = [];
+  const Module = await require(path.join(wasm, 'swipl-bundle.js'))({
+    arguments: ['-q'], print: line => said.push(line), printErr: line => said.push(line) });
+  for (const name of [...LOADED.flatMap(files), 'pack.pl'])
+    write(Module.FS, `/typhon/${name}`, text(name));
+  const { success, message } = Module.prolog.query(
+    "use_module('/typhon/app/playground/playground.pl'), " +
+    "qsave_program('/typhon.state', [stand_alone(false), autoload(true), " +
+    'foreign(no_save)])').once();
+  if (!success || said.length > 0)
+    throw new Error(['The platform cannot be loaded', message, ...said].join('\n'));
+  return Module.FS.readFile('/typhon.state');
+}
+
+async function build(to) {
+  fs.mkdirSync(to, { recursive: true });
+  const put = (name, content) => fs.writeFileSync(path.join(to, name), content);
+  for (const name of fs.readdirSync(page))
+    if (!/^(index|people)\b/.test(name)) put(name, fs.readFileSync(path.join(page, name)));
+  for (const name of ['index.html', 'play.css', 'play.js', 'begin.js', 'worker.js'])
+    put(name, fs.readFileSync(path.join(__dirname, name)));
+  put('swipl.js', fs.readFileSync(path.join(wasm, 'swipl-bundle-no-data.js')));
+  put('typhon.state', await state());
+  put('sources.json', JSON.stringify(Object.fromEntries(READ.flatMap(files)
+    .map(name => [`/typhon/${name}`, text(name)]))));
+  // The service worker keeps exactly these files, of this version.
+  const names = fs.readdirSync(to).filter(name => name !== 'sw.js').sort();
+  const hash = createHash('sha256');
+  for (const name of names) hash.update(fs.readFileSync(path.join(to, name)));
+  put('sw.js', text('app/playground/sw.js')
+    .replace('"VERSION"', JSON.stringify(hash.digest('hex').slice(0, 16)))
+    .replace('"FILES"', JSON.stringify(names)));
+}
+
+module.exports = { state };
+if (require.main === module)
+  build(process.argv[2]).catch(error => {
+    console.error(error.message);
+    process.exitCode = 1;
+  });

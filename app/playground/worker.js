@@ -1,0 +1,87 @@
+// Runs Prolog: queries and orders of the page, and virtual time in slices. It
+// takes {do: 'first'}, {ask: text} and {play: message}, with an id, and sends
+// {id, reply} or {id, error}, {frame}, and {said: [line]}.
+
+'use strict';
+
+const SLICE = 0.03;             // s of work between two looks at messages
+const SOON = 0.25;              // s, at most, between two slices
+const LINES = 2000;             // of output between two messages
+let prolog = null, timer = null, said = [];
+
+const say = line => {
+  if (said.length < LINES) said.push(line);
+};
+
+// The rights of this worker end here: Prolog has no way to JavaScript, and
+// JavaScript none to the network.
+function closeDoors() {
+  for (const name of ['fetch', 'XMLHttpRequest', 'WebSocket', 'EventSource',
+    'WebTransport', 'indexedDB', 'caches', 'importScripts', 'Worker', 'BroadcastChannel'])
+    try {
+      Object.defineProperty(self, name, { value: undefined, configurable: false });
+    } catch { /* not there */ }
+}
+
+async function begin() {
+  const [state, sources] = await Promise.all([
+    fetch('typhon.state').then(got => got.arrayBuffer()),
+    fetch('sources.json').then(got => got.json())]);
+  importScripts('swipl.js');
+  const made = await SWIPL({ arguments: ['-x', '/typhon.state', '-q',
+    '--stack-limit=256m'], print: say, printErr: say,
+  preRun: [({ FS }) => FS.writeFile('/typhon.state', new Uint8Array(state))] });
+  for (const [name, text] of Object.entries(sources)) {
+    made.FS.mkdirTree(name.replace(/\/[^/]*$/, ''));
+    made.FS.writeFile(name, text);
+  }
+  closeDoors();
+  prolog = made.prolog;
+  once('typhon_playground:begin');
+}
+
+function once(goal, input = {}) {
+  const answer = prolog.query(goal, input).once();
+  if (answer.error || !answer.success) throw new Error(answer.message || `${goal} failed`);
+  return answer;
+}
+
+const text = value => (typeof value === 'object' ? value.v ?? String(value) : String(value));
+
+function news() {
+  const frame = text(once('typhon_page_tab:tab_news(Json)').Json);
+  if (frame) postMessage({ frame });
+  if (said.length > 0) postMessage({ said });
+  said = [];
+}
+
+function slice() {
+  timer = null;
+  const { More } = once(`typhon_page_tab:tab_slice(${SLICE}, More)`);
+  news();
+  if (Number(More) >= 0) timer = setTimeout(guarded(slice), 1000 * Math.min(SOON, Number(More)));
+}
+
+const guarded = act => () => {
+  try { act(); } catch (error) { say(error.message); postMessage({ said }); said = []; }
+};
+
+const ready = begin();
+
+onmessage = async ({ data: { id, ...message } }) => {
+  try {
+    await ready;
+    if (message.do === 'first')
+      postMessage({ id, reply: 'ready',
+        frame: text(once('typhon_page_tab:tab_first(Json)').Json) });
+    else
+      postMessage({ id, reply: text(once('typhon_page_tab:tab_ask(In, Out)',
+        { In: message.ask }).Out) });
+    news();
+    clearTimeout(timer);
+    timer = setTimeout(guarded(slice), 0);
+  } catch (error) {
+    postMessage({ id, error: error.message, said });
+    said = [];
+  }
+};
