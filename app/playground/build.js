@@ -4,6 +4,7 @@
 
 'use strict';
 const fs = require('fs'), path = require('path');
+const { execFileSync } = require('child_process');
 const { createHash } = require('crypto');
 
 const root = path.join(__dirname, '../..');
@@ -13,6 +14,8 @@ const LOADED = ['prolog', 'agents', 'payloads', 'experiments/engine', 'app/playg
 const READ = ['agents', 'payloads', 'examples/studies',   // that programs may name
   ...['allocation', 'hierarchy', 'learning', 'population', 'sieve', 'sync']
     .map(name => `experiments/${name}`)];
+
+const STUDIES = ['examples/studies/coverage.pl'];
 
 function files(folder) {
   return fs.readdirSync(path.join(root, folder), { withFileTypes: true })
@@ -35,13 +38,26 @@ async function state() {
     arguments: ['-q'], print: line => said.push(line), printErr: line => said.push(line) });
   for (const name of [...LOADED.flatMap(files), 'pack.pl'])
     write(Module.FS, `/typhon/${name}`, text(name));
-  const { success, message } = Module.prolog.query(
-    "use_module('/typhon/app/playground/playground.pl'), " +
-    "qsave_program('/typhon.state', [stand_alone(false), autoload(true), " +
-    'foreign(no_save)])').once();
-  if (!success || said.length > 0)
-    throw new Error(['The platform cannot be loaded', message, ...said].join('\n'));
+  const once = goal => Module.prolog.query(goal).once();
+  const loaded = once("use_module('/typhon/app/playground/playground.pl')");
+  if (!loaded.success || said.length > 0)
+    throw new Error(['The platform cannot be loaded', loaded.message, ...said].join('\n'));
+  // Libraries that WebAssembly does not have are missing here, too.
+  const saved = once("qsave_program('/typhon.state', [stand_alone(false), " +
+    'autoload(true), foreign(no_save)])');
+  if (!saved.success) throw new Error(['No state was saved', ...said].join('\n'));
   return Module.FS.readFile('/typhon.state');
+}
+
+// Sessions of the documents, and studies of the mechanisms.
+function programs() {
+  const sessions = JSON.parse(execFileSync('swipl', ['-g', 'playables', '-t', 'halt',
+    path.join(root, 'doc/site/playable.pl')], { encoding: 'utf8', maxBuffer: 1e8 }));
+  const titled = sessions.map(({ id, ...rest }) =>
+    ({ id, title: id.replace(/^doc\//, ''), ...rest }));
+  return titled.concat(STUDIES.map(study => ({ id: study, title: study, queries: [],
+    study: path.basename(study),
+    files: files(path.dirname(study)).map(name => [path.basename(name), text(name)]) })));
 }
 
 async function build(to) {
@@ -49,8 +65,10 @@ async function build(to) {
   const put = (name, content) => fs.writeFileSync(path.join(to, name), content);
   for (const name of fs.readdirSync(page))
     if (!/^(index|people)\b/.test(name)) put(name, fs.readFileSync(path.join(page, name)));
-  for (const name of ['index.html', 'play.css', 'play.js', 'begin.js', 'worker.js'])
+  for (const name of ['index.html', 'play.css', 'play.js', 'share.js', 'begin.js',
+    'worker.js'])
     put(name, fs.readFileSync(path.join(__dirname, name)));
+  put('programs.json', JSON.stringify(programs()));
   put('swipl.js', fs.readFileSync(path.join(wasm, 'swipl-bundle-no-data.js')));
   put('typhon.state', await state());
   put('sources.json', JSON.stringify(Object.fromEntries(READ.flatMap(files)

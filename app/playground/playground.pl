@@ -7,24 +7,31 @@
 :- use_module('../../prolog/typhon/options/virtual', []).
 :- use_module('../../prolog/typhon/tools/page/tab', [tab_start/0]).
 :- use_module(session, [session_begin/2]).
-:- use_module(library(aggregate), []).
-:- use_module(library(apply_macros), []).
-:- use_module(library(assoc), []).
-:- use_module(library(dcg/basics), []).
-:- use_module(library(dicts), []).
 :- use_module(library(filesex), [make_directory_path/1]).
-:- use_module(library(gensym), []).
-:- use_module(library(heaps), []).
-:- use_module(library(nb_set), []).
-:- use_module(library(option), []).
-:- use_module(library(ordsets), []).
-:- use_module(library(pairs), []).
-:- use_module(library(random), []).
-:- use_module(library(rbtrees), []).
-:- use_module(library(solution_sequences), []).
-:- use_module(library(strings), []).
-:- use_module(library(ugraphs), []).
-:- use_module(library(yall), []).
+
+%   There is no index of libraries to load from.  Programs have these.
+
+:- user:use_module(library(aggregate)).
+:- user:use_module(library(apply)).
+:- user:use_module(library(assoc)).
+:- user:use_module(library(dicts)).
+:- user:use_module(library(error)).
+:- user:use_module(library(gensym)).
+:- user:use_module(library(heaps)).
+:- user:use_module(library(listing)).
+:- user:use_module(library(lists)).
+:- user:use_module(library(nb_set)).
+:- user:use_module(library(option)).
+:- user:use_module(library(ordsets)).
+:- user:use_module(library(pairs)).
+:- user:use_module(library(random)).
+:- user:use_module(library(rbtrees)).
+:- user:use_module(library(readutil)).
+:- user:use_module(library(solution_sequences)).
+:- user:use_module(library(strings)).
+:- user:use_module(library(ugraphs)).
+:- user:use_module(library(yall)).
+:- use_module(library(dcg/basics), []).
 
 /** <module> What the saved state of the playground contains
 
@@ -45,6 +52,7 @@ typhon_page_tab:tab_order("play", Message, Kind) :-
 
 begin :-
     set_prolog_flag(autoload, true),
+    set_prolog_flag(verbose, normal),
     forall(( source_file(File),
              sub_atom(File, 0, _, _, '/typhon/'),
              \+ exists_file(File) ),

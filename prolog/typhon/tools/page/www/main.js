@@ -132,7 +132,8 @@ function tabs(app) {
 
 // ---------------------------------------------------------------- the state
 
-const STATES = { connecting: 'connecting', open: 'live',
+const STATES = { connecting: globalThis.typhonWorker ? 'not started' : 'connecting',
+  open: 'live', stopped: 'stopped',
   lost: 'connection lost, trying again', refused: 'refused, trying again' };
 
 function stateLine(app) {
