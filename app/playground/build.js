@@ -6,48 +6,18 @@
 const fs = require('fs'), path = require('path');
 const { execFileSync } = require('child_process');
 const { createHash } = require('crypto');
+const { save, sources } = require('./state.js');
 
 const root = path.join(__dirname, '../..');
 const wasm = path.join(root, 'test/lib/wasm');
 const page = path.join(root, 'prolog/typhon/tools/page/www');
-const LOADED = ['prolog', 'agents', 'payloads', 'experiments/engine', 'app/playground'];
 const READ = ['agents', 'payloads', 'examples/studies',   // that programs may name
   ...['allocation', 'hierarchy', 'learning', 'population', 'sieve', 'sync']
     .map(name => `experiments/${name}`)];
 
 const STUDIES = ['examples/studies/coverage.pl'];
 
-function files(folder) {
-  return fs.readdirSync(path.join(root, folder), { withFileTypes: true })
-    .flatMap(entry => {
-      const name = `${folder}/${entry.name}`;
-      return entry.isDirectory() ? files(name) : name.endsWith('.pl') ? [name] : [];
-    });
-}
-
 const text = name => fs.readFileSync(path.join(root, name), 'utf8');
-
-function write(FS, name, content) {
-  FS.mkdirTree(path.posix.dirname(name));
-  FS.writeFile(name, content);
-}
-
-async function state() {
-  const said = [];
-  const Module = await require(path.join(wasm, 'swipl-bundle.js'))({
-    arguments: ['-q'], print: line => said.push(line), printErr: line => said.push(line) });
-  for (const name of [...LOADED.flatMap(files), 'pack.pl'])
-    write(Module.FS, `/typhon/${name}`, text(name));
-  const once = goal => Module.prolog.query(goal).once();
-  const loaded = once("use_module('/typhon/app/playground/playground.pl')");
-  if (!loaded.success || said.length > 0)
-    throw new Error(['The platform cannot be loaded', loaded.message, ...said].join('\n'));
-  // Libraries that WebAssembly does not have are missing here, too.
-  const saved = once("qsave_program('/typhon.state', [stand_alone(false), " +
-    'autoload(true), foreign(no_save)])');
-  if (!saved.success) throw new Error(['No state was saved', ...said].join('\n'));
-  return Module.FS.readFile('/typhon.state');
-}
 
 // Sessions of the documents, and studies of the mechanisms.
 function programs() {
@@ -57,7 +27,7 @@ function programs() {
     ({ id, title: id.replace(/^doc\//, ''), ...rest }));
   return titled.concat(STUDIES.map(study => ({ id: study, title: study, queries: [],
     study: path.basename(study),
-    files: files(path.dirname(study)).map(name => [path.basename(name), text(name)]) })));
+    files: sources(path.dirname(study)).map(name => [path.basename(name), text(name)]) })));
 }
 
 async function build(to) {
@@ -70,8 +40,8 @@ async function build(to) {
     put(name, fs.readFileSync(path.join(__dirname, name)));
   put('programs.json', JSON.stringify(programs()));
   put('swipl.js', fs.readFileSync(path.join(wasm, 'swipl-bundle-no-data.js')));
-  put('typhon.state', await state());
-  put('sources.json', JSON.stringify(Object.fromEntries(READ.flatMap(files)
+  put('typhon.state', await save('app/playground/playground.pl'));
+  put('sources.json', JSON.stringify(Object.fromEntries(READ.flatMap(sources)
     .map(name => [`/typhon/${name}`, text(name)]))));
   // The service worker keeps exactly these files, of this version.
   const names = fs.readdirSync(to).filter(name => name !== 'sw.js').sort();
@@ -82,9 +52,7 @@ async function build(to) {
     .replace('"FILES"', JSON.stringify(names)));
 }
 
-module.exports = { state };
-if (require.main === module)
-  build(process.argv[2]).catch(error => {
-    console.error(error.message);
-    process.exitCode = 1;
-  });
+build(process.argv[2]).catch(error => {
+  console.error(error.message);
+  process.exitCode = 1;
+});

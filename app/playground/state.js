@@ -7,7 +7,7 @@ const path = require('path');
 
 const root = path.join(__dirname, '../..');
 const engine = path.join(root, 'test/lib/wasm');
-const LOADED = ['prolog', 'app/playground'];
+const LOADED = ['prolog', 'app/playground', 'experiments/engine'];
 
 // The names of the files NAME.pl below a folder of the project.
 function sources(folder) {

@@ -37,7 +37,8 @@ async function begin() {
   }
   closeDoors();
   prolog = made.prolog;
-  once('typhon_playground:begin');
+  once('platform_boot');
+  once('typhon_playground:playground_begin');
 }
 
 function once(goal, input = {}) {
