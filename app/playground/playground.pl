@@ -1,7 +1,7 @@
 :- module(typhon_playground,
           [ playground_begin/0
           ]).
-:- use_module(library(lists), []).
+:- use_module(library(error), []).
 :- use_module('../../prolog/typhon', []).
 :- use_module('../../prolog/typhon/tools/page/tab', [tab_start/0]).
 :- use_module(session, [session_begin/2]).
@@ -18,10 +18,22 @@ typhon_page_tab:tab_order("play", Message, Kind) :-
 
 %!  playground_begin is det.
 %
-%   Begin to serve the page of the tab, after platform_boot/0.  Programs cannot
-%   call JavaScript: that is in the engine, whatever the state has.
+%   Begin to serve the page of the tab, after platform_boot/0.
 
 playground_begin :-
+    forall(javascript(PI), remove(PI)),
     set_prolog_flag(verbose, normal),
     user:use_module('/typhon/prolog/typhon'),
     tab_start.
+
+%   The ways from Prolog to JavaScript.  They are defined in C, so no program can
+%   define them once they are removed.
+
+javascript('$js_call'/2).
+javascript(js_run_script/1).
+javascript('$await'/2).
+
+remove(Name/Arity) :-
+    functor(Head, Name, Arity),
+    redefine_system_predicate(system:Head),
+    assertz((system:Head :- error:permission_error(call, javascript, Name/Arity))).

@@ -5,7 +5,8 @@
 :- use_module('../../experiments/engine/studies', [study_load/2]).
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(filesex),
-              [delete_directory_contents/1, make_directory_path/1]).
+              [ delete_directory_contents/1, directory_file_path/3,
+                make_directory_path/1 ]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../../prolog/typhon/kernel/base/error_text', [print_error/2]).
 :- use_module('../../prolog/typhon/network', [network_property/2, network_stop/1]).
@@ -74,11 +75,22 @@ in_folder :-
 
 save(Name, Content) :-
     must_be(string, Content),
-    file_base_name(Name, Base),
+    below(Name, File),
     setup_call_cleanup(
-        open(Base, write, Out, [encoding(utf8)]),
+        open(File, write, Out, [encoding(utf8)]),
         write(Out, Content),
         close(Out)).
+
+%   Programs may be in a folder, as agents/walker.pl.
+
+below(Name, File) :-
+    atomic_list_concat(Parts, /, Name),
+    (   Parts = [Folder, File0],
+        \+ sub_atom(Folder, 0, _, _, '.')
+    ->  make_directory_path(Folder),
+        directory_file_path(Folder, File0, File)
+    ;   file_base_name(Name, File)
+    ).
 
 queries(Text, Queries) :-
     setup_call_cleanup(

@@ -37,9 +37,11 @@ playable(Path, N, Files, Queries) :-
     append(Others, Mine, Earlier),
     findall(Query, ( member(One, Others),
                      query_in(One, Query),
-                     string_concat("?- [", _, Query) ), Queries0, Queries1),
+                     loads(Query) ), Queries0, Queries1),
     findall(Query, ( member(One, Mine), query_in(One, Query) ), Queries1),
-    findall(Query, ( member(Query0, Queries0), going_on(Query0, Query) ), Queries),
+    append(First, [Last], Queries0),
+    going_on(Last, On),
+    append(First, On, Queries),
     virtual(Files, Queries),
     \+ ( member(Query, Queries), elsewhere(Word),
          sub_string(Query, _, _, _, Word) ).
@@ -73,6 +75,7 @@ elsewhere("processes(").
 elsewhere("page_start").
 elsewhere("journal").
 elsewhere("shell(").
+elsewhere(", sleep(").                  % of a query, not of an agent
 
 blocks(Text, Blocks) :-
     atomic_list_concat(Parts, "\n```", Text),
@@ -114,14 +117,19 @@ query_in(Session, Query) :-
     member(Query, Lines),
     string_concat("?- ", _, Query).
 
-%   Without the stop of the network at its end, which readers want to see.
+loads(Query) :-
+    ( string_concat("?- [", _, Query) ; string_concat("?- use_module(", _, Query) ),
+    !.
+
+%   The last query without the stop of the network, which readers want to see.
 
 going_on(Query, On) :-
-    (   sub_string(Query, Before, _, 0, Stop),
-        sub_string(Stop, 0, _, _, "network_stop("),
-        \+ sub_string(Stop, _, _, _, "), ")
-    ->  sub_string(Query, 0, Before, _, Kept),
-        string_concat(Kept1, ", ", Kept),
-        string_concat(Kept1, ".", On)
-    ;   On = Query
+    (   once(sub_string(Query, Before, _, _, "network_stop("))
+    ->  sub_string(Query, 0, Before, _, Start),
+        (   string_concat(Start1, ", ", Start)
+        ->  string_concat(Start1, ".", Kept),
+            On = [Kept]
+        ;   On = []
+        )
+    ;   On = [Query]
     ).
