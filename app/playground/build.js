@@ -15,7 +15,11 @@ const READ = ['agents', 'payloads', 'examples/studies',   // that programs may n
   ...['allocation', 'hierarchy', 'learning', 'population', 'sieve', 'sync']
     .map(name => `experiments/${name}`)];
 
-const STUDIES = ['examples/studies/coverage.pl'];
+// Studies of the mechanisms, to set up with other parameters.
+const STUDIES = ['examples/studies/coverage.pl', 'experiments/sync/study_demo.pl',
+  'experiments/sieve/figure_3_3.pl', 'experiments/population/figure_6_3.pl',
+  'experiments/allocation/figure_7_4.pl', 'experiments/learning/figure_4_7.pl',
+  'experiments/hierarchy/beyond_lead.pl'];
 
 const text = name => fs.readFileSync(path.join(root, name), 'utf8');
 
@@ -26,7 +30,7 @@ function programs() {
   const titled = sessions.map(({ id, ...rest }) =>
     ({ id, title: id.replace(/^doc\//, ''), ...rest }));
   return titled.concat(STUDIES.map(study => ({ id: study, title: study, queries: [],
-    study: path.basename(study),
+    study: path.basename(study), folder: `/typhon/${path.dirname(study)}`,
     files: sources(path.dirname(study)).map(name => [path.basename(name), text(name)]) })));
 }
 

@@ -65,7 +65,8 @@ class Playground {
     }
   }
 
-  show({ files, queries, study }) {
+  show({ files, queries, study, folder }) {
+    this.folder = folder;
     this.files = new Map(files);
     this.queries.value = queries.join('\n');
     this.queries.hidden = Boolean(study);
@@ -103,7 +104,7 @@ class Playground {
 
   get program() {
     this.keep();
-    return { files: [...this.files], study: this.file,
+    return { files: [...this.files], study: this.file, folder: this.folder,
              queries: this.queries.value.split('\n').filter(line => line.trim()) };
   }
 
@@ -124,15 +125,18 @@ class Playground {
 
   async setUp() {
     this.said.textContent = '';
-    this.begun = true;
     this.stop.disabled = false;
     globalThis.playground.begin();
-    const { files, queries, study } = this.program;
+    const { files, queries, study, folder } = this.program;
     try {
+      // A study is loaded once.
+      if (this.loaded) await connection.stop('Set up anew');
+      this.loaded = study;
+      this.begun = true;
       const overlays = [...store.overlays.values()];
       await connection.ready;
       await app.ask({ do: 'play', files: Object.fromEntries(files),
-        ...(study ? { study } : { queries: queries.join('\n') }) });
+        ...(study ? { study, folder } : { queries: queries.join('\n') }) });
       store.reset();
       for (const overlay of overlays) store.overlay(overlay);
       await connection.post({ do: 'first' });

@@ -4,6 +4,7 @@
 :- use_module(library(error), []).
 :- use_module('../../prolog/typhon', []).
 :- use_module('../../prolog/typhon/tools/page/tab', [tab_start/0]).
+:- use_module('../../experiments/engine/gnuplot', []).
 :- use_module(session, [session_begin/2]).
 
 /** <module> What the saved state of the playground contains, beside the platform

@@ -2,7 +2,7 @@
           [ session_begin/2             % +Message, -Kind
           ]).
 :- use_module('../../experiments/engine/live', []).
-:- use_module('../../experiments/engine/studies', [study_load/2]).
+:- use_module('../../experiments/engine/studies', [study_at_work/1, study_load/2]).
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(filesex),
               [ delete_directory_contents/1, directory_file_path/3,
@@ -32,7 +32,7 @@ and print their answers.
 %
 %   End all that there is, and write the files in the field `files` of Message,
 %   names with their texts.  Run the field `queries`, or make the file of the field
-%   `study` the model of the page: Kind is "session" or "model".  Virtual time runs
+%   `study`, which is in the field `folder`, the model of the page: Kind is "session" or "model".  Virtual time runs
 %   only when the page lets it.
 %
 %   @error page_syntax(queries, Error, Where), study(File, Problems)
@@ -41,7 +41,7 @@ session_begin(Message, Kind) :-
     get_dict(files, Message, Files),
     must_be(dict, Files),
     clear,
-    in_folder,
+    in_folder(Message),
     forall(get_dict(Name, Files, Content), save(Name, Content)),
     begin(Message, Kind).
 
@@ -50,6 +50,7 @@ begin(Message, "model") :-
     !,
     atom_string(File, Text),
     study_load(File, Study),
+    study_at_work(Study),
     overlays_start([Study]),
     models_start([model(study_live:live(Study))]).
 begin(Message, "session") :-
@@ -66,9 +67,14 @@ clear :-
     forall(network_property(Network, seed(_)), network_stop(Network)),
     forall(host(Host, _, _), host_stop(Host)).
 
-%   Programs are found in the working directory, which has no other files.
+%   Programs are found in the working directory, which has no other files; but the
+%   field `folder`, with the files of a study, has.
 
-in_folder :-
+in_folder(Message) :-
+    get_dict(folder, Message, Folder),
+    !,
+    working_directory(_, Folder).
+in_folder(_) :-
     make_directory_path('/program'),
     delete_directory_contents('/program'),
     working_directory(_, '/program').

@@ -7,12 +7,13 @@ const through = (stream, bytes) =>
   new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer();
 
 // Only these parts, of these kinds, are taken from a link.
-function checked({ files, queries, study = null }) {
+function checked({ files, queries, study = null, folder = null }) {
   const texts = list => Array.isArray(list) && list.every(text => typeof text === 'string');
   if (!Array.isArray(files) || !files.every(file => texts(file) && file.length === 2)
-      || !texts(queries) || !(study === null || typeof study === 'string'))
+      || !texts(queries) || ![study, folder].every(name =>
+        name === null || typeof name === 'string'))
     throw new Error('It has no program');
-  return { files, queries, study };
+  return { files, queries, study: study ?? undefined, folder: folder ?? undefined };
 }
 
 export const Share = {

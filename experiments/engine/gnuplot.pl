@@ -8,7 +8,7 @@
           ]).
 :- use_module(library(apply), [foldl/4, maplist/3]).
 :- use_module(library(lists), [member/2, memberchk/2]).
-:- use_module(library(process), [process_create/3]).
+:- autoload(library(process), [process_create/3]).
 
 /** <module> gnuplot
 

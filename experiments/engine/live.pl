@@ -54,7 +54,8 @@ live(Study, measures(Pairs)) :-
     network_property(Network, hosts(Hosts)),
     findall(Event, event_seen(Event), Events),
     Log = log{case:Case, hosts:Hosts, events:Events},
-    findall(Label-Number, measured(Study, Log, Label, Number), Pairs).
+    findall(Label-Number, measured(Study, Log, Label, Number), Pairs0),
+    sort(1, @<, Pairs0, Pairs).
 live(_, end) :-
     forall(retract(live(Directory, _, _, Network)),
            call_cleanup(network_stop(Network),
