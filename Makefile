@@ -30,7 +30,7 @@ CHECKS = list_undefined, list_trivial_fails, list_format_errors, \
     list_redefined, list_void_declarations
 
 .PHONY: help tools tools-peers tools-all tools-ros demo demo-robots demo-ros \
-    demo-page page-tools thesis thesis-real test test-quick stability \
+    demo-page page-tools playground thesis thesis-real test test-quick stability \
     chaos scripted fuzz fuzz-programs hostile mutants check check-all \
     doc pictures vscode release bench bench-peers profile \
     test-portability install clean
@@ -149,6 +149,12 @@ vscode:                 ## pack the extension for VS Code, by vsce from npm
 	@mkdir -p out
 	@cd app/editors/vscode && ../../../.ci/vsce package \
 	    --allow-missing-repository --out ../../../out/typhon-agents.vsix
+
+playground: tools       ## programs in a browser, without a server of ours, in out/playground
+	$(call NEEDS,app/playground/build.js)
+	@.ci/install wasm page
+	@rm -rf out/playground
+	@node app/playground/build.js out/playground
 
 doc: tools              ## the documents as a site, in out/doc
 	@.ci/install doc

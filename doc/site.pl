@@ -17,6 +17,7 @@ Says which links are broken, and fails if any are.
 :- use_module(site/reference).          % first, see there
 :- use_module(site/documents, [document/2]).
 :- use_module(site/markdown).
+:- use_module(site/playable, [playable_sessions/2]).
 :- use_module(library(filesex),
               [ copy_file/2, delete_directory_and_contents/1,
                 directory_file_path/3, make_directory_path/1,
@@ -51,7 +52,8 @@ main(Argv) :-
     setup_call_cleanup(
         make_directory(Work),
         ( sources(Work),
-          mkdocs(Work, Dir, Status) ),
+          mkdocs(Work, Dir, Status),
+          playground(Dir) ),
         delete_directory_and_contents(Work)),
     halt(Status).
 
@@ -81,8 +83,30 @@ page(Docs, Public, File) :-
     page(Docs, Public, File, Text).
 
 page(Docs, Public, File, Text) :-
-    site_markdown(File, Public, Text, Markdown),
+    played(File, Played),
+    site_markdown(File, Public, Played, Text, Markdown),
     write_file(Docs, File, Markdown).
+
+%   Without SWI-Prolog for WebAssembly the site has no playground.
+
+played(File, Played) :-
+    (   with_playground,
+        exists_file(File)
+    ->  playable_sessions(File, Played)
+    ;   Played = []
+    ).
+
+with_playground :-
+    exists_file('app/playground/build.js'),
+    exists_file('test/lib/wasm/swipl-bundle-no-data.js').
+
+playground(Dir) :-
+    with_playground,
+    !,
+    directory_file_path(Dir, play, Play),
+    process_create(path(node), ['app/playground/build.js', Play], [process(Pid)]),
+    process_wait(Pid, exit(0)).
+playground(_).
 
 %   The files that must come along, pictures and sources.
 

@@ -7,7 +7,8 @@ const path = require('path');
 
 const root = path.join(__dirname, '../..');
 const engine = path.join(root, 'test/lib/wasm');
-const LOADED = ['prolog', 'app/playground', 'experiments/engine'];
+const LOADED = ['prolog', 'app/playground', 'experiments/engine']
+  .filter((folder) => fs.existsSync(path.join(root, folder)));
 
 // The names of the files NAME.pl below a folder of the project.
 function sources(folder) {

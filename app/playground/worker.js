@@ -7,7 +7,8 @@
 const SLICE = 0.03;             // s of work between two looks at messages
 const SOON = 0.25;              // s, at most, between two slices
 const LINES = 2000;             // of output between two messages
-let prolog = null, timer = null, said = [];
+const MEMORY = 2 ** 30;         // bytes, between two slices
+let prolog = null, memory = { buffer: [] }, timer = null, said = [];
 
 const say = line => {
   if (said.length < LINES) said.push(line);
@@ -23,7 +24,19 @@ function closeDoors() {
     } catch { /* not there */ }
 }
 
+// SWI-Prolog does not show its memory.
+function noteMemory() {
+  const { instantiate } = WebAssembly;
+  WebAssembly.instantiate = async (...given) => {
+    const made = await instantiate(...given);
+    for (const value of Object.values((made.instance ?? made).exports))
+      if (value instanceof WebAssembly.Memory) memory = value;
+    return made;
+  };
+}
+
 async function begin() {
+  noteMemory();
   const [state, sources] = await Promise.all([
     fetch('typhon.state').then(got => got.arrayBuffer()),
     fetch('sources.json').then(got => got.json())]);
@@ -52,6 +65,10 @@ const text = value => (typeof value === 'object' ? value.v ?? String(value) : St
 function news() {
   const frame = text(once('typhon_page_tab:tab_news(Json)').Json);
   if (frame) postMessage({ frame });
+  if (memory.buffer.byteLength > MEMORY) {
+    postMessage({ said: ['% Too much memory: the worker has ended. Stop starts another'] });
+    close();
+  }
   if (said.length > 0) postMessage({ said });
   said = [];
 }

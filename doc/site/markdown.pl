@@ -1,5 +1,5 @@
 :- module(site_markdown,
-          [ site_markdown/4,            % +Path, +Public, +Text, -Markdown
+          [ site_markdown/5,            % +Path, +Public, +Played, +Text, -Markdown
             source_page/4,              % +Path, +Public, +Text, -Markdown
             link_target/2               % +Text, -Target
           ]).
@@ -16,15 +16,17 @@ the predicates of the reference, atoms as `move/1`.
 :- use_module(library(lists), [member/2]).
 :- use_module(colour, [code_html/4]).
 
-%!  site_markdown(+Path, +Public, +Text:string, -Markdown:string) is det.
+%!  site_markdown(+Path, +Public, +Played:list(pair), +Text:string,
+%!                -Markdown:string) is det.
 %
 %   The document at Path with programs in colours, links from predicates named
-%   as code to the reference, and from files to their pages.
+%   as code to the reference, and from files to their pages, and from sessions of
+%   Played, Session-Id, to the playground.
 
-site_markdown(Path, Public, Text, Markdown) :-
+site_markdown(Path, Public, Played, Text, Markdown) :-
     root(Path, Root),
     string_codes(Text, Codes),
-    phrase(lines(site(Root, Public), Parts), Codes),
+    phrase(lines(page(site(Root, Public), Played), Parts), Codes),
     joined(Parts, Markdown).
 
 %!  source_page(+Path, +Public, +Text:string, -Markdown:string) is det.
@@ -85,16 +87,27 @@ lines(Site, Parts) -->
 verbatim(#) --> "#".
 verbatim('    ') --> "    ".
 
-fenced(Site, Part) -->
+fenced(page(Site, Played), Part) -->
     "```", text("\n", Kind), "\n", string(Codes), "\n```\n",
     !,
     { string_codes(Code, Codes),
       string_concat(Code, "\n", Text),
       (   memberchk(Kind, ["prolog", "prolog-session"])
       ->  atom_string(Name, Kind),
-          code_html(Name, Text, Site, Part)
+          code_html(Name, Text, Site, Html),
+          run_here(Text, Played, Site, Link),
+          joined([Html, Link], Part)
       ;   joined(['```', Kind, '\n', Text, '```\n'], Part)
       ) }.
+
+%   The playground is beside the pages; it needs a server.
+
+run_here(Session, Played, site(Root, _), Link) :-
+    memberchk(Session-Id, Played),
+    !,
+    joined(['\n<p class="run-here"><a href="', Root, 'play/index.html#doc=', Id,
+            '">Run it here</a></p>\n\n'], Link).
+run_here(_, _, _, '').
 
 line(_, []) -->
     eos,
@@ -116,7 +129,7 @@ part(_, Link) -->
     "[", text("[]", Text), "](", text(")", Target0), ")",
     { page(Target0, Target),
       joined(['[', Text, '](', Target, ')'], Link) }.
-part(site(Root, Public), Part) -->
+part(page(site(Root, Public), _), Part) -->
     "`", text("`", Code), "`",
     {   predicate_named(Code, PI),
         memberchk(PI, Public)

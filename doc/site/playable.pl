@@ -1,5 +1,6 @@
 :- module(site_playable,
           [ playable/4,                 % +Path, ?N, -Files, -Queries
+            playable_sessions/2,        % +Path, -Sessions
             playables/0
           ]).
 :- use_module(documents, [document/2]).
@@ -50,6 +51,20 @@ virtual(Files, Queries) :-
     ( member(Text, Queries) ; member(_-Text, Files) ),
     sub_string(Text, _, _, _, "clock(virtual)"),
     !.
+
+%!  playable_sessions(+Path, -Sessions:list(pair)) is det.
+%
+%   Sessions are Text-Id of the sessions of the document Path.
+
+playable_sessions(Path, Pairs) :-
+    read_file_to_string(Path, Text, [encoding(utf8)]),
+    blocks(Text, Blocks),
+    findall(Session, member(block("prolog-session", Session), Blocks), Sessions),
+    findall(Session-Id,
+            ( playable(Path, N, _, _),
+              nth1(N, Sessions, Session),
+              format(atom(Id), '~w:~d', [Path, N]) ),
+            Pairs).
 
 %!  playables is det.
 %

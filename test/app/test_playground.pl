@@ -16,7 +16,6 @@
 :- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_create/3, process_wait/2]).
-:- use_module(library(readutil), [read_file_to_string/3]).
 
 :- meta_predicate playground(-, 0).
 
@@ -151,6 +150,36 @@ test(endless_goal_is_stopped) :-
         browser_click(Browser, "#play button"-"Stop"),
         show(Browser, [], ["?- network_start(ring(2), N, [clock(virtual)])."]),
         set_up(Browser) )).
+
+%   With the server gone, all comes from the store of the browser.
+
+test(works_offline) :-
+    built(Dir),
+    http_server(test_playground:reply(Dir), [port(localhost:Port), workers(4)]),
+    format(atom(Address), 'http://localhost:~w/', [Port]),
+    with_browser(Browser, (
+        call_cleanup(( browser_open(Browser, Address),
+                       waits_for_files(Browser),
+                       browser_wait(Browser, "return navigator.serviceWorker\c
+                           .controller?.state === 'activated'", 30) ),
+                     http_stop_server(Port, [])),
+        browser_open(Browser, Address),
+        waits_for_files(Browser),
+        set_up(Browser) )).
+
+test(too_much_memory_ends_the_worker, true(sub_string(Said, _, _, _, "memory"))) :-
+    playground(Browser, (
+        show(Browser, [], ["?- forall(between(1, 12, N), ( numlist(1, 1 000 000, L), atom_codes(A, L), atomic_list_concat([A,A,A,A,A,A,A,A,A,A,A,A], B), nb_setval(N, B) ))."]),
+        browser_click(Browser, "#play button"-"Set up"),
+        browser_wait(Browser, "return /memory/.test(playground.page.said.textContent)", 60),
+        said(Browser, Said) )).
+
+%   A phone shows the program above the network.
+
+test(narrow_screen, true(Width =< 400)) :-
+    playground(Browser, (
+        browser_size(Browser, 400, 800),
+        browser_run(Browser, "return document.documentElement.scrollWidth", Width) )).
 
 %   No way from a program to JavaScript.
 

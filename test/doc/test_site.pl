@@ -14,6 +14,7 @@
                 relative_file_name/3 ]).
 :- use_module(library(lists), [append/3, last/2, member/2, nth0/3, nth1/3]).
 :- use_module(library(plunit)).
+:- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(sgml), [load_html/3]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/program), [vocabulary_word/2]).
@@ -117,6 +118,14 @@ target(Path, File, Target) :-
 in_file(Fragment, _, _) :-
     memberchk(Fragment, ['', '__skip']),    % the theme's own
     !.
+in_file(Fragment, File, _) :-           % a program of the playground
+    string_concat("doc=", Id, Fragment),
+    !,
+    file_directory_name(File, Play),
+    directory_file_path(Play, 'programs.json', Programs),
+    read_file_to_string(Programs, Text, [encoding(utf8)]),
+    format(string(Known), "\"id\":\"~w\"", [Id]),
+    once(sub_string(Text, _, _, _, Known)).
 in_file(Fragment, File, Contents) :-
     uri_encoded(fragment, Id, Fragment),
     memberchk(contents(File, Ids, _), Contents),

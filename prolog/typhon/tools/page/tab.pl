@@ -1,9 +1,5 @@
 :- module(typhon_page_tab,
-          [ tab_start/0,
-            tab_first/1,                % -Json
-            tab_ask/2,                  % +Json, -Json
-            tab_news/1,                 % -Json
-            tab_slice/2                 % +Seconds, -More
+          [ tab_start/0
           ]).
 :- use_module('../../bridges/json', [json_dict/2, json_text/2]).
 :- use_module('../../kernel/base/error_lines', [error_text/2]).
@@ -30,6 +26,12 @@ on: the worker is ended then.
     tab_order/3,                        % +What, +Message, -Done
     typhon_events:handle_event/4,
     typhon_hosting:begins/1.
+
+:- public                               % called by JavaScript
+    tab_first/1,                        % -Json
+    tab_ask/2,                          % +Json, -Json
+    tab_news/1,                         % -Json
+    tab_slice/2.                        % +Seconds, -More
 
 :- dynamic events/1.                    % Queue
 
@@ -61,7 +63,7 @@ typhon_events:handle_event(page, Host, Agent, What) :-
     host_time(Host, Time),
     thread_send_message(Queue, event(Time, Address, Agent, Shown)).
 
-%!  tab_first(-Json:string) is det.
+%   tab_first(-Json:string) is det.
 %
 %   The first frame of the feed.
 
@@ -74,7 +76,7 @@ tab_first(Json) :-
                                       orders:Orders, world:false,
                                       model:Model })}, Json).
 
-%!  tab_ask(+Json:string, -Reply:string) is det.
+%   tab_ask(+Json:string, -Reply:string) is det.
 %
 %   Reply is that to a query or an order, or to an order of the hook tab_order/3.
 
@@ -98,7 +100,7 @@ refused(Error, _{error:Text}) :-
     error_text(Error, Text0),
     without_folder(Text0, Text).
 
-%!  tab_news(-Json:string) is det.
+%   tab_news(-Json:string) is det.
 %
 %   The next frame of the feed, empty if nothing has happened.
 
@@ -111,7 +113,7 @@ tab_news(Json) :-
         json_text(_{events:Rows}, Json)
     ).
 
-%!  tab_slice(+Seconds, -More:number) is det.
+%   tab_slice(+Seconds, -More:number) is det.
 %
 %   Let virtual time run at its pace, for about Seconds.  There is more to do
 %   after More seconds; -1 if not before the next order.
