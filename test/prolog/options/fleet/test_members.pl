@@ -3,6 +3,7 @@
 % Members of a fleet, its hosts, tags and changes, with a real engine.
 
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/texts', [message_text/2]).
 :- use_module('../../../lib/fixtures').
 :- use_module('../../../lib/peers').
 :- use_module('../../../lib/redis').
@@ -11,6 +12,7 @@
 :- use_module(library(lists), [append/3, member/2, memberchk/2]).
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
+:- use_module(library(typhon/options/fleet/engine), [engine_script/4]).
 
 :- needs([fleet]).
 
@@ -300,6 +302,20 @@ wrong(fleet_watch(lab, print, _), existence_error(fleet, lab)).
 wrong(fleet_unwatch(nothing), existence_error(fleet_watch, nothing)).
 wrong(host_start(alpha, [fleet(lab)]), existence_error(fleet, lab)).
 wrong(host_start(alpha, [tags([x])]), existence_error(option, fleet)).
+
+wrong(engine_script(lab, overview, [], _),
+      existence_error(fleet, lab)).
+
+%   says(?Formal, ?Part): the message has this Part.
+
+says(resource_error(fleet(lab)), "the fleet lab cannot be reached").
+says(resource_error(fleet_space(lab)), "the fleet lab has no space left").
+says(permission_error(authenticate, fleet, lab),
+     "the fleet lab does not accept the user and password").
+
+test(messages_of_errors, [forall(says(Formal, Part)), nondet]) :-
+    message_text(error(Formal, _), Text),
+    sub_string(Text, _, _, _, Part).
 
 test(without_a_fleet, [forall(wrong(Goal, Formal)),
                        throws(error(Formal, _))]) :-
