@@ -37,6 +37,10 @@ equivalent('prolog/typhon/options/journal/committing.pl', queue_flush/0, order,
            "queue_flush :- sig_atomic(commit_or_leave). \c
             queue_flush :- queue(_, _, full), !, wake(now)",
            "the thread that wants a commit makes it itself, which takes longer").
+equivalent('prolog/typhon/options/journal/postgresql.pl', error_words/3, constants,
+           "'Can\\'t open lib', 'Data source name'",
+           "'Data source name', 'Can\\'t open lib'",
+           "any of these words tells the error").
 equivalent('prolog/typhon/network/children.pl', secret_made/1, bound,
            "32", "33",
            "a secret may be longer").
@@ -74,6 +78,7 @@ bound_argument('prolog/typhon/options/guard/guard_clauses.pl', of_platform/1, 1)
 bound_argument('prolog/typhon/options/journal/sql.pl', sql/3, 1).
 bound_argument('prolog/typhon/options/migration/strategy.pl', choose/6, 1).
 bound_argument('prolog/typhon/options/quotas/quota_enforcer.pl', kept/2, 1).
+bound_argument('prolog/typhon/tools/page/browser_orders.pl', run_order/3, 1).
 
 %!  equivalent_change(+Change, -Reason:string) is semidet.
 
