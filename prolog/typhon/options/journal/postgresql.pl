@@ -90,8 +90,7 @@ parts(Url, Parts) :-
             (   nonvar(Search),
                 uri_query_components(Search, Query),
                 member(Part, Query)
-            ;   nonvar(Authority),
-                uri_authority_components(Authority, Components),
+            ;   uri_authority_components(Authority, Components),
                 authority_part(Components, Part)
             ;   atom_concat(/, Name0, Path),
                 decoded(dbname=Name0, Part)
