@@ -12,6 +12,7 @@ and by that of a stranger.
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/arrivals').
 :- use_module('../../../lib/authority').
+:- use_module('../../../lib/fixtures', [capturing/2, was_printed/2]).
 :- use_module('../../../lib/peers').
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [append/3, member/2, nth1/3]).
@@ -47,7 +48,17 @@ test(posts_to_others_are_not_acknowledged, Left == [n(1)]) :-
     no_leaks(with_peers([p-[host([])]],
                         with_host_here([], acknowledged(Left)))).
 
+test(term_that_is_not_declared_is_reported) :-
+    no_leaks(capturing(with_peers([p-[host([])]], with_host_here([], reported)),
+                       _)).
+
 :- end_tests(arrivals).
+
+reported :-
+    endpoint_address(Me),
+    peer_do(p, typhon_wire:endpoint_post(Me, bogus, x)),
+    wait_until(was_printed(warning,
+                           typhon(endpoint, undeclared(_, post, bogus))), 10).
 
 :- begin_tests(arrivals_by_certificate, [condition(has_openssl)]).
 
