@@ -454,6 +454,23 @@ test(agents_that_have_not_run_yet_run_later, Outcomes == [done,done]) :-
                                       ( member(A, As),
                                         agent_join(A, Outcome, 10) ),
                                       Outcomes)) )).
+test(agents_that_have_not_run_yet_get_no_turn_too_many,
+     Turns == [1,2,3,1,2,3,1,2,3]) :-
+    setup_call_cleanup(
+        message_queue_create(Queue, [alias(test_saving_turns)]),
+        with_file(File,
+            ( with_network(ring(3), [clock(virtual), seed(1)], N1,
+                           ( maplist(turns_noted, [1,2], As),
+                             network_save(N1, File) )),
+              with_loaded_network(File, _,
+                                  ( turns_noted(3, A),
+                                    forall(member(B, [A|As]),
+                                           agent_join(B, done, 10)) )),
+              findall(Turn, ( between(1, 9, _),
+                              thread_get_message(Queue, Turn,
+                                                 [timeout(0)]) ),
+                      Turns) )),
+        message_queue_destroy(Queue)).
 test(rule_in_the_state_of_an_agent, X == at(1)) :-
     Program = clauses([ (:- agent(a, [state([same/2])])),
                         (main :- receive(_-Y), same(Y, Z), leave(got(Z))) ]),
@@ -467,6 +484,14 @@ test(rule_in_the_state_of_an_agent, X == at(1)) :-
                               ( agent_send(A, at(1)),
                                 agent_join(A, done, 10),
                                 remote(n1, sense(got(X))) )) )).
+
+turns_noted(I, Agent) :-
+    agent_create(clauses([ (:- agent(a, [])), (main :- hop(3)),
+                           (hop(0) :- !),
+                           (hop(K) :- thread_send_message(test_saving_turns, I),
+                                      neighbours([H|_]), move(H), K1 is K-1,
+                                      hop(K1)) ]),
+                 Agent, [host(n1)]).
 
                 /*******************************
                 *             ERRORS           *
