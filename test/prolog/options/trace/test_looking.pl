@@ -293,6 +293,10 @@ test(kinds_are_a_list_of_kinds,
                                     hops-type_error(list, hops) ])),
        error(Error) ]) :-
     two(( traveller_on(alpha, A), agent_trace(A, Kinds) )).
+test(process_without_hosts_gets_no_reports,
+     [ forall(member(Goal, [agent_trace(x, [hops]), agent_notrace(x)])),
+       error(existence_error(endpoint, running)) ]) :-
+    Goal.
 test(no_reports_after_the_tracer_ends, error(existence_error(agent, _))) :-
     two(( traveller_on(alpha, A), agent_dispose(A),
           agent_trace(A, [hops]) )).
