@@ -10,6 +10,7 @@
 :- use_module(library(lists), [memberchk/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/base/error_lines', [error_text/2]).
+:- use_module('../../kernel/base/error_text', [is_abort/1]).
 :- use_module('../../kernel/base/monotonic', [deadline/2]).
 :- use_module('../../bridges/json', [json_dict/2, json_text/2]).
 :- use_module('../../bridges/common',
@@ -67,7 +68,8 @@ refuse(Status, Why) :-
 %!  json_reply(+In, +Request, +Most, :Answer) is det.
 %
 %   Print the answer to a posted request in JSON, whose body, on In, has at most
-%   Most bytes: {"answer": A}, for call(Answer, Message, A), or {"error": Text}.
+%   Most bytes: {"answer": A}, for call(Answer, Message, A), or {"error": Text}
+%   for what it raises, but an abort, which passes.
 
 :- meta_predicate json_reply(+, +, +, 2).
 
@@ -101,6 +103,12 @@ must_be_json(Request) :-
     ;   domain_error(mimetype, Type)
     ).
 
+%   An abort ends the thread.
+
+error_answer(Abort, _) :-
+    is_abort(Abort),
+    !,
+    throw(Abort).
 error_answer(Error, _{error:Text}) :-
     error_text(Error, Text0),
     without_folder(Text0, Text).

@@ -16,6 +16,7 @@
               [process_create/3, process_kill/2, process_wait/2]).
 :- use_module(library(socket)).
 :- use_module(library(typhon)).
+:- use_module('../../../../prolog/typhon/tools/page/reception', [json_reply/4]).
 :- use_module('../../../../prolog/typhon/kernel/base/monotonic',
               [monotonic_time/1]).
 
@@ -52,7 +53,31 @@ done(Base, Message, Done) :-
     answer(Base, Message, Answer),
     Done = Answer.done.
 
+%   raised(+Ball, -Got): Got is what comes of Ball that an answer raises.
+
+raised(Ball, Got) :-
+    catch(setup_call_cleanup(
+              process_create(path(printf), ['{}'], % a stream with timeouts
+                             [stdout(pipe(In, [type(binary)]))]),
+              with_output_to(string(Text),
+                             json_reply(In, [ method(post), content_length(2),
+                                              content_type('application/json') ],
+                                        100, test_page_server:raises(Ball))),
+              close(In)),
+          Raised, true),
+    ( var(Raised) -> Got = text(Text) ; Got = raised(Raised) ).
+
+raises(Ball, _, _) :-
+    throw(Ball).
+
 :- begin_tests(page_guard).
+
+test(end_of_a_thread_is_no_answer, Got == raised(unwind(thread_exit(x)))) :-
+    raised(unwind(thread_exit(x)), Got).
+test(error_of_an_answer_is_its_text) :-
+    raised(error(existence_error(thing, x), _), text(Text)),
+    assertion(sub_string(Text, _, _, 0, "does not exist\"}")),
+    raised(ball, text(_)).
 
 %   path(-Path, -Status, -Without): what is answered with the token, and
 %   without. A zero byte does not hide the rest of a name.
