@@ -33,6 +33,7 @@ study_picture('algorithms-exchange.png', exchange, exchange).
 study_picture('algorithms-islands.png',  islands,  islands).
 study_picture('algorithms-mixed.png',    mixed,    mixed).
 study_picture('algorithms-settings.png', settings, settings).
+study_picture('fleet-away.png',          away,     away).
 
 %!  study_pictures(+Directory) is det.
 %

@@ -144,5 +144,5 @@ claim("of the agents that wait no fewer are back in two hours", [],
       at([way=wait], done) >= at([way=again], done)).
 
 plot(away, "Agents that work on robots which are away for 30 % of their time",
-     lines([x(period), y([done, time, tries]), line(way), log(period),
+     lines([x(period), y([done, time, tries]), line(way),
             xlabel("Mean of the periods away (s)")])).
