@@ -2,6 +2,7 @@
           [ platform_save/1,            % +State
             platform_boot/0
           ]).
+:- use_module(twister, []).
 :- use_module(library(filesex), [directory_member/3, make_directory_path/1]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(qsave), [qsave_program/2]).

@@ -11,6 +11,7 @@
               [ virtual_alone/0, virtual_begin/0, virtual_doing/1,
                 virtual_end/0, virtual_goes_on/1, virtual_here/1,
                 virtual_loop/1, virtual_now/1, virtual_rests/0,
+                virtual_seed/1,
                 virtual_state/1, virtual_steps/1 ]).
 :- use_module(virtual/virtual_pace,
               [pace/1, pace_set/2, pace_slice/1, pace_slice_end/0]).
@@ -119,7 +120,7 @@ typhon_time:alarm(virtual, Stamp0, Agent, Token) :-
     send_loop(alarm(Stamp, Agent-Token)).
 
 typhon_time:seed(virtual, Seed) :-
-    send_loop(do(goal(set_random(seed(Seed))))).
+    send_loop(do(goal(typhon_virtual:virtual_seed(Seed)))).
 
 typhon_time:alone(virtual) :-
     virtual_alone.

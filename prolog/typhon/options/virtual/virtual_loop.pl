@@ -5,6 +5,7 @@
             virtual_here/1,             % +Queue
             virtual_goes_on/1,          % +Queue
             virtual_rests/0,
+            virtual_seed/1,             % +Seed
             virtual_now/1,              % -Stamp
             virtual_steps/1,            % -Count
             virtual_doing/1,            % -Work
@@ -60,6 +61,8 @@ thread may read. The thread is no `server`: it selects messages by their form.
 :- multifile
     typhon_scheduler:fire/2,            % Agent, Token: an alarm fires
     typhon_scheduler:over/2,            % Agent, Token: the alarm is obsolete
+    seeds/1,                            % Seed: as virtual_seed/1, where
+                                        % set_random/1 gives other numbers
     prolog:message//1.
 
 :- dynamic
@@ -95,9 +98,19 @@ virtual_end :-
 %   runs repeatable; time_seed/1 sets another one.
 
 virtual_loop(Queue) :-
-    set_random(seed(1)),
+    virtual_seed(1),
     empty_heap(Alarms),
     wait_for_request(Queue, alarms(0, Alarms)).
+
+%!  virtual_seed(+Seed:integer) is det.
+%
+%   Seed the random generator of this thread.
+
+virtual_seed(Seed) :-
+    (   seeds(Seed)
+    ->  true
+    ;   set_random(seed(Seed))
+    ).
 
 %!  virtual_here(+Queue) is det.
 %
