@@ -1,204 +1,129 @@
 :- module(test_playground, []).
 :- use_module('../lib/common').
-
-:- needs([page, wasm]).
-
-/** <module> The playground, as a static site, in Chromium
-
-*Threading*: the main thread; a server has its own.
-*/
-
-:- use_module('../lib/browser').
-:- use_module(library(debug), [assertion/1]).
-:- use_module(library(filesex), [delete_directory_and_contents/1]).
-:- use_module(library(http/http_dispatch), [http_reply_file/3]).
-:- use_module(library(http/thread_httpd), [http_server/2, http_stop_server/2]).
-:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module('../lib/documents',
+              [block_write/2, blocks/2, document/1]).
+:- use_module('../lib/texts', [write_file/3]).
+:- use_module('../lib/transcript', [session_steps/2]).
+:- use_module(library(apply), [include/3, maplist/2]).
+:- use_module(library(filesex),
+              [ delete_directory_and_contents/1, directory_file_path/3,
+                make_directory_path/1 ]).
+:- use_module(library(lists), [append/3, member/2, memberchk/2]).
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_create/3, process_wait/2]).
+:- use_module(library(readutil), [read_file_to_string/3]).
 
-:- meta_predicate playground(-, 0).
+:- needs([wasm]).
 
-:- dynamic site/1, asked/1.
+/** <module> Programs in virtual time give the same logs in WebAssembly
 
-built(Dir) :-
-    site(Dir),
-    !.
-built(Dir) :-
+The sessions of each document that uses virtual time are played twice, by this
+Prolog and by one from the saved state of the playground, see lib/wasm/play.pl.
+Answers and logs are compared byte by byte.
+
+*Threading*: the main thread.
+*/
+
+:- dynamic state/1.                     % Directory with the file `state`
+
+save_state :-
     tmp_file(playground, Dir),
-    project_file('app/playground/build.js', Script),
-    process_create(path(node), [Script, Dir],
-                   [ stdout(null), stderr(pipe(Err)), process(Pid) ]),
-    read_string(Err, _, Said),
-    close(Err),
-    process_wait(Pid, Status),
-    assertion(Said-Status == ""-exit(0)),
-    assertz(site(Dir)).
+    make_directory_path(Dir),
+    directory_file_path(Dir, state, State),
+    project_file('app/playground/state.js', Script),
+    run(path(node), [Script, State], [], exit(0)),
+    assertz(state(Dir)).
 
-:- public reply/2.
+drop_state :-
+    forall(retract(state(Dir)), delete_directory_and_contents(Dir)).
 
-reply(Dir, Request) :-
-    memberchk(path(Path0), Request),
-    ( Path0 == / -> Path = '/index.html' ; Path = Path0 ),
-    assertz(asked(Path)),
-    atom_concat(Dir, Path, File),
-    http_reply_file(File, [unsafe(true), cache(false)], Request).
+:- begin_tests(playground, [setup(save_state), cleanup(drop_state)]).
 
-playground(Browser, Goal) :-
-    built(Dir),
-    retractall(asked(_)),
-    setup_call_cleanup(
-        http_server(test_playground:reply(Dir), [port(localhost:Port), workers(4)]),
-        ( format(atom(Address), 'http://localhost:~w/', [Port]),
-          with_browser(Browser, ( browser_open(Browser, Address),
-                                  waits_for_files(Browser),
-                                  call(Goal) )) ),
-        http_stop_server(Port, [])).
-
-waits_for_files(Browser) :-
-    browser_wait(Browser, "return globalThis.playground?.page?.files.size > 0").
-
-set_up(Browser) :-
-    browser_click(Browser, "#play button"-"Set up"),
-    browser_wait(Browser, "return [...typhon.store.hosts.values()]\c
-        .some(h => h.state === 'running')", 60).
-
-said(Browser, Text) :-
-    browser_run(Browser, "return playground.page.said.textContent", Text).
-
-go(Browser) :-
-    browser_run(Browser, "typhon.app.run.speed(null)", _),
-    browser_click(Browser, ".run-bar button"-"Go").
-
-:- begin_tests(playground, [cleanup(forall(retract(site(Dir)),
-                                            delete_directory_and_contents(Dir)))]).
-
-%   Nothing but the files of the page is fetched, and no worker begins.
-
-test(nothing_runs_before_a_click) :-
-    playground(Browser, (
-        browser_run(Browser, "return typhon.connection === undefined && \c
-            typhon.app.connection.there", There),
-        assertion(There == false) )).
-
-test(session_runs, true(sub_string(Said, _, _, _, "Outcome = done"))) :-
-    playground(Browser, (
-        set_up(Browser),
-        go(Browser),
-        browser_wait(Browser, "return playground.page.said.textContent\c
-            .includes('Outcome = done')", 30),
-        said(Browser, Said),
-        browser_run(Browser, "return typhon.store.counts.arrived", Hops),
-        assertion(Hops == 3),
-        browser_complaints(Browser, Texts),
-        assertion(Texts == []) )).
-
-test(time_is_paused_until_go, Time =:= 0) :-
-    playground(Browser, (
-        show(Browser, [], ["?- network_start(ring(3), N, [clock(virtual), hop_time(uniform(1,2))]).",
-                           "?- network_advance($N, 7)."]),
-        set_up(Browser),
-        browser_run(Browser, "return typhon.app.run.now.time", Time),
-        go(Browser),
-        browser_wait(Browser, "return typhon.app.run.now.time >= 7", 30) )).
-
-test(study_has_sliders) :-
-    playground(Browser, (
-        browser_run(Browser, "location.hash = 'doc=examples/studies/coverage.pl'", _),
-        browser_wait(Browser, "return playground.page.file === 'coverage.pl'"),
-        browser_click(Browser, "#play button"-"Set up"),
-        browser_wait(Browser, "return document.querySelector('[aria-label=\"side, slider\"]')\c
-            ?.max === '9'", 60),
-        browser_click(Browser, ".model-form button"-"Set up"),
-        browser_wait(Browser, "return typhon.store.hosts.size === 9", 30),
-        go(Browser),
-        browser_wait(Browser, "return typhon.app.views.get('model').samples.length > 0 \c
-            && typhon.app.views.get('model').seen.state === 'finished'", 60) )).
-
-test(editor_marks_mistakes) :-
-    playground(Browser, (
-        set_up(Browser),
-        browser_run(Browser, "playground.page.editor.value = \c
-            ':- agent(a).\\nmain :-\\n    foo(.\\n'", _),
-        browser_wait(Browser, "return document.querySelector('.advice .error') !== null", 20) )).
-
-%   A shared link has the program, and again runs nothing by itself.
-
-test(share_and_open) :-
-    playground(Browser, (
-        show(Browser, [["a.pl", ":- agent(a).\nmain.\n"]], ["?- true."]),
-        browser_click(Browser, "#play button"-"Share"),
-        browser_wait(Browser, "return location.hash.startsWith('#p=')"),
-        browser_run(Browser, "return location.href", Address),
-        browser_open(Browser, 'about:blank'),
-        browser_open(Browser, Address),
-        browser_wait(Browser, "return globalThis.playground?.page?.files.get('a.pl') \c
-            === ':- agent(a).\\nmain.\\n'"),
-        browser_run(Browser, "return typhon.app.connection.there", There),
-        assertion(There == false) )).
-
-test(damaged_link) :-
-    playground(Browser, (
-        browser_run(Browser, "location.hash = 'p=AAAA'", _),
-        browser_wait(Browser, "return document.querySelector('.note.error') !== null") )).
-
-test(endless_goal_is_stopped) :-
-    playground(Browser, (
-        show(Browser, [], ["?- repeat, fail."]),
-        browser_click(Browser, "#play button"-"Set up"),
-        browser_wait(Browser, "return typhon.app.state === 'open'", 60),
-        browser_click(Browser, "#play button"-"Stop"),
-        show(Browser, [], ["?- network_start(ring(2), N, [clock(virtual)])."]),
-        set_up(Browser) )).
-
-%   With the server gone, all comes from the store of the browser.
-
-test(works_offline) :-
-    built(Dir),
-    http_server(test_playground:reply(Dir), [port(localhost:Port), workers(4)]),
-    format(atom(Address), 'http://localhost:~w/', [Port]),
-    with_browser(Browser, (
-        call_cleanup(( browser_open(Browser, Address),
-                       waits_for_files(Browser),
-                       browser_wait(Browser, "return navigator.serviceWorker\c
-                           .controller?.state === 'activated'", 30) ),
-                     http_stop_server(Port, [])),
-        browser_open(Browser, Address),
-        waits_for_files(Browser),
-        set_up(Browser) )).
-
-test(too_much_memory_ends_the_worker, true(sub_string(Said, _, _, _, "memory"))) :-
-    playground(Browser, (
-        show(Browser, [], ["?- forall(between(1, 12, N), ( numlist(1, 1 000 000, L), atom_codes(A, L), atomic_list_concat([A,A,A,A,A,A,A,A,A,A,A,A], B), nb_setval(N, B) ))."]),
-        browser_click(Browser, "#play button"-"Set up"),
-        browser_wait(Browser, "return /memory/.test(playground.page.said.textContent)", 60),
-        said(Browser, Said) )).
-
-%   A phone shows the program above the network.
-
-test(narrow_screen, true(Width =< 400)) :-
-    playground(Browser, (
-        browser_size(Browser, 400, 800),
-        browser_run(Browser, "return document.documentElement.scrollWidth", Width) )).
-
-%   No way from a program to JavaScript.
-
-test(no_javascript_from_prolog, true(Reached == [])) :-
-    playground(Browser, (
-        show(Browser, [], [
-            "?- catch((call(wasm:(:=), X, 'self'), format(reached)), E, (print(E), nl)).",
-            "?- catch((X := 'Date', format(reached)), E, (print(E), nl)).",
-            "?- catch((js_run_script('1'), format(reached)), E, (print(E), nl)).",
-            "?- catch((system:'$js_call'(X, 'Date'), format(reached)), E, (print(E), nl)).",
-            "?- catch((abolish(system:'$js_call'/2), system:'$js_call'(X, 'Date'), format(reached)), E, (print(E), nl)).",
-            "?- network_start(ring(2), N, [clock(virtual)])."]),
-        set_up(Browser),
-        said(Browser, Said) )),
-    split_string(Said, "\n", "", Lines),
-    findall(Line, ( member(Line, Lines), string_concat("reached", _, Line) ), Reached).
+test(same_bytes, [forall(virtual_document(File, Blocks)),
+                  Different-File == []-File]) :-
+    state(Root),
+    with_tmp_dir(Dir, played(Dir, Root, Blocks, Different)).
 
 :- end_tests(playground).
 
-show(Browser, Files, Queries) :-
-    browser_run(Browser, "playground.page.show({files: arguments[0], \c
-        queries: arguments[1]})", [Files, Queries], _).
+%   Some block of the document is about virtual time.
+
+virtual_document(Path, Blocks) :-
+    document(Path),
+    blocks(Path, Blocks),
+    once(( member(block(_, _, Lines), Blocks),
+           member(Line, Lines),
+           sub_string(Line, _, _, _, "clock(virtual)") )),
+    memberchk(block("prolog-session", _, _), Blocks).
+
+%   Both play in a folder of the same name, as logs hold names of files.
+
+played(Dir, Root, Blocks, Different) :-
+    directory_file_path(Dir, native, Native),
+    directory_file_path(Dir, fresh, Fresh),
+    directory_file_path(Dir, wasm, Wasm),
+    prepare(Native, Blocks),
+    prepare(Fresh, Blocks),
+    play_here(Native),
+    directory_file_path(Root, state, State),
+    project_file('test/lib/wasm/play.js', Script),
+    run(path(node), [Script, State, Fresh, Native, Wasm], [], exit(0)),
+    different(Native, Wasm, Different).
+
+prepare(Dir, Blocks) :-
+    make_directory_path(Dir),
+    maplist(block_write(Dir), Blocks),
+    findall(Goal,
+            ( member(block("prolog-session", _, Lines), Blocks),
+              session_steps(Lines, Steps),
+              member(step(Goal, _), Steps) ),
+            Goals),
+    directory_file_path(Dir, 'session.pl', Session),
+    write_file(Session, '~@',
+               [forall(member(Goal, Goals), format('?- ~w~n', [Goal]))]).
+
+play_here(Dir) :-
+    project_file('test/lib/wasm/play.pl', Play),
+    project_file(prolog, Library),
+    atom_concat('library=', Library, Path),
+    current_prolog_flag(executable, Swipl),
+    run(Swipl, [ '-p', Path, '-g', 'play(\'session.pl\')', '-t', halt, Play ],
+        [cwd(Dir)], exit(0)).
+
+run(Program, Args, Options, Status) :-
+    process_create(Program, Args,
+                   [ stdin(null), stdout(null), stderr(null), process(Pid)
+                   | Options ]),
+    process_wait(Pid, Status).
+
+%   Different are the names of files that only one has, and of answers and logs
+%   that are not the same.
+
+different(Native, Wasm, Different) :-
+    directory_files(Native, Names1),
+    directory_files(Wasm, Names2),
+    append(Names1, Names2, All),
+    sort(All, Names),
+    include(differs(Native, Wasm), Names, Different).
+
+differs(Dir1, Dir2, Name) :-
+    \+ ( content(Dir1, Name, Content),
+         content(Dir2, Name, Content) ).
+
+%   Saved agents and networks have the version of Prolog, and names of variables.
+
+content(Dir, Name, Content) :-
+    directory_file_path(Dir, Name, File),
+    (   exists_file(File)
+    ->  read_file_to_string(File, Text, [encoding(utf8)]),
+        (   saved(Begin),
+            sub_string(Text, 0, _, _, Begin)
+        ->  Content = saved
+        ;   Content = Text
+        )
+    ;   exists_directory(File),
+        Content = directory
+    ).
+
+saved("typhon_saved(").
+saved("restore_point(").

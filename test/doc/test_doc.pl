@@ -24,12 +24,12 @@
 :- use_module('../lib/texts', [write_file/2, file_lines/2]).
 :- use_module('../lib/transcript', [transcript_differences/4]).
 :- use_module('../lib/documents',
-              [document/1, outside/3, prose/2]).
+              [ block_file/2, block_text/2, block_write/2, blocks/2, document/1,
+                outside/3, prose/2 ]).
 :- use_module('../../doc/site/markdown', [link_target/2]).
 :- use_module(library(apply), [exclude/3, maplist/2, maplist/3]).
 :- use_module(library(filesex),
-              [ directory_file_path/3, directory_member/3,
-                make_directory_path/1 ]).
+              [directory_file_path/3, directory_member/3]).
 :- use_module(library(lists), [append/3, member/2, nth0/3]).
 :- use_module(library(pairs), [group_pairs_by_key/2]).
 :- use_module(library(plunit)).
@@ -39,56 +39,8 @@
               [payload_load/2, program_load/6]).
 
                 /*******************************
-                *            BLOCKS            *
-                *******************************/
-
-%   blocks(+File, -Blocks): Blocks are block(Kind, Line, Lines), Line being
-%   where the block begins.
-
-blocks(File, Blocks) :-
-    file_lines(File, Lines),
-    blocks(Lines, 1, Blocks).
-
-blocks([], _, []).
-blocks([Line|Lines], N, Blocks) :-
-    string_concat("```", Kind, Line),
-    !,
-    append(Body, ["```"|Rest], Lines),
-    !,
-    length(Body, Length),
-    N1 is N+Length+2,
-    Blocks = [block(Kind, N, Body)|More],
-    blocks(Rest, N1, More).
-blocks([_|Lines], N, Blocks) :-
-    N1 is N+1,
-    blocks(Lines, N1, Blocks).
-
-block_file(block("python", _, [First|_]), Name) :-
-    split_string(First, " ", "", ["#", Name]),
-    string_concat(_, ".py", Name).
-block_file(block(Kind, _, [First|_]), Name) :-
-    memberchk(Kind, ["prolog", "text"]),
-    split_string(First, " ", ":", ["%", Name|_]),
-    string_concat(_, ".pl", Name).
-
-text(Lines, Text) :-
-    atomic_list_concat(Lines, '\n', Text0),
-    atom_concat(Text0, '\n', Text).
-
-                /*******************************
                 *             FILES            *
                 *******************************/
-
-write_block(Dir, Block) :-
-    (   block_file(Block, Name)
-    ->  Block = block(_, _, Lines),
-        directory_file_path(Dir, Name, File),
-        file_directory_name(File, Parent),
-        make_directory_path(Parent),
-        text(Lines, Text),
-        write_file(File, Text)
-    ;   true
-    ).
 
 %   Must load, or at least be clauses.
 
@@ -98,7 +50,7 @@ check_block(Dir, Block) :-
     (   block_file(Block, Name)
     ->  directory_file_path(Dir, Name, File),
         check_file(Lines, File)
-    ;   text(Lines, Text),
+    ;   block_text(Lines, Text),
         setup_call_cleanup(
             open_string(Text, In),
             read_all(In),
@@ -125,7 +77,7 @@ read_all(In) :-
     ).
 
 run_blocks(Blocks, Terminal, Differences, Dir) :-
-    maplist(write_block(Dir), Blocks),
+    maplist(block_write(Dir), Blocks),
     maplist(check_block(Dir), Blocks),
     findall(Line-Lines,
             member(block("prolog-session", Line, Lines), Blocks),
@@ -393,7 +345,7 @@ differences_with_engine(File, Differences) :-
                                          Differences)) )).
 
 at_port(Port, block(Kind, N, Lines0), block(Kind, N, Lines)) :-
-    text(Lines0, Text0),
+    block_text(Lines0, Text0),
     atomic_list_concat(Parts, '6379', Text0),
     atomic_list_concat(Parts, Port, Text),
     split_string(Text, "\n", "", Split),

@@ -2,7 +2,8 @@
           [ transcript_differences/3,   % +Sessions, +Dir, -Differences
             transcript_differences/4,   % +Sessions, +Terminal, +Dir,
                                         % -Differences
-            typed_in_terminal/3         % +Queries, +Dir, -Outputs
+            typed_in_terminal/3,        % +Queries, +Dir, -Outputs
+            session_steps/2             % +Lines, -Steps
           ]).
 
 /** <module> Compare transcripts in documents with the top level
@@ -66,7 +67,12 @@ typed_in_terminal(Queries, Dir, Outputs) :-
         maplist(ask(Top), Queries, Outputs),
         stop_top_level(Top)).
 
-%   steps(+Lines, -Steps): step(Goal, Expected) for each query.
+%!  session_steps(+Lines, -Steps:list) is det.
+%
+%   Steps are step(Goal, Expected) for each query in the lines of a session.
+
+session_steps(Lines, Steps) :-
+    steps(Lines, Steps).
 
 steps([], []).
 steps([Line|Lines], [step(Goal, Expected)|Steps]) :-

@@ -1,0 +1,93 @@
+:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(terms), [mapargs/3]).
+:- use_module(library(typhon), except([network_start/3])).
+:- use_module(library(typhon/network), []).
+
+/*  play(File) answers the queries in File, one after the other, and writes what
+    they answer into the file `answers`.  Networks are written to logs.  Natively
+    and in WebAssembly all files are the same then, see test_played.pl. */
+
+:- dynamic
+    known/2,                            % Name, Value: of $Name
+    count/1.                            % networks
+
+count(0).
+
+%   As the library's, with a seed and a log.
+
+network_start(Topology, Network, Options0) :-
+    with_seed(Options0, Options1),
+    with_log(Options1, Options),
+    typhon_network:network_start(Topology, Network, Options).
+
+with_seed(Options, Options) :-
+    memberchk(seed(_), Options),
+    !.
+with_seed(Options, [seed(1)|Options]).
+
+with_log(Options, Options) :-
+    ( memberchk(log(_), Options) ; memberchk(log(_, _), Options) ),
+    !.
+with_log(Options, [log(File, Kinds)|Options]) :-
+    Kinds = [hops, messages, facts, faults, links, hosts],
+    retract(count(N)),
+    N1 is N+1,
+    assertz(count(N1)),
+    atomic_list_concat([network, N, '.log'], File).
+
+play(File) :-
+    set_random(seed(1)),
+    setup_call_cleanup(
+        ( open(File, read, In, [encoding(utf8)]),
+          open(answers, write, Out, [encoding(utf8)]) ),
+        with_output(Out, play_all(In)),
+        ( close(In),
+          close(Out) )).
+
+:- meta_predicate with_output(+, 0).
+
+with_output(Out, Goal) :-
+    current_output(Old),
+    setup_call_cleanup(set_output(Out), Goal, set_output(Old)).
+
+play_all(In) :-
+    read_term(In, Term, [module(user), variable_names(Names)]),
+    (   Term == end_of_file
+    ->  forall(network_property(Network, seed(_)), network_stop(Network)),
+        forall(host_property(Host, state(running)), host_stop(Host))
+    ;   Term = (?- Goal),
+        query(Goal, Names),
+        play_all(In)
+    ).
+
+query(Goal0, Names) :-
+    known_values(Goal0, Names, Goal),
+    catch(answer(Goal, Names), error(Formal, _), shown(error(Formal))).
+
+answer(Goal, Names) :-
+    (   user:Goal
+    ->  forall(( member(Name=Value, Names), nonvar(Value) ),
+               ( retractall(known(Name, _)),
+                 assertz(known(Name, Value)) )),
+        shown(Names)
+    ;   shown(false)
+    ).
+
+shown(Term) :-
+    \+ \+ ( numbervars(Term, 0, _, [attvar(bind)]),
+            format('~W~n', [Term, [quoted(true), numbervars(true)]]) ).
+
+known_values($(Var), Names, Value) :-
+    var(Var),
+    member(Name=Same, Names),
+    Same == Var,
+    known(Name, Value),
+    !.
+known_values(Term, Names, Result) :-
+    compound(Term),
+    !,
+    mapargs(known_value(Names), Term, Result).
+known_values(Term, _, Term).
+
+known_value(Names, Term, Value) :-
+    known_values(Term, Names, Value).
