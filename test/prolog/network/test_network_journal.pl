@@ -12,6 +12,7 @@
 :- use_module(library(readutil),
               [read_file_to_codes/3, read_line_to_string/2]).
 :- use_module(library(typhon)).
+:- use_module(library(typhon/network/plan), [network_plan/3]).
 
 :- needs([journal]).
 
@@ -383,6 +384,9 @@ spoilt(Dir, File, Formal) :-
     read_file_to_codes(File, Before, [type(binary)]),
     rename_file(Good, File).
 
+test(journal_is_refused_in_virtual_time_before_anything_starts,
+     error(permission_error(open, journal, '/tmp/none'))) :-
+    network_plan(ring(2), [journal('/tmp/none'), clock(virtual)], _).
 test(journal_is_refused_in_virtual_time_and_beside_other_hosts,
      Formals-Whys == [ permission_error(open, journal, '/tmp/none'),
                        permission_error(open, journal, '/tmp/none/process1') ]-
