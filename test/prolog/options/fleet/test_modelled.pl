@@ -269,7 +269,7 @@ nothing_is_left :-
 test(model_answers_as_redis) :-
     with_fleet([], _, [],
                ( engine(lab, config(set, appendfsync, no), _),
-                 forall(between(1, 60, N), compare(N)) )).
+                 forall(between(1, 30, N), compare(N)) )).
 
 test(host_that_is_away_loses_its_lease,
      true([Up1,Away1,Up2] == [[A,C],[B],[A,B,C]])) :-
