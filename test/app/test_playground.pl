@@ -6,8 +6,8 @@
 :- use_module('../lib/transcript', [session_steps/2]).
 :- use_module(library(apply), [include/3, maplist/2]).
 :- use_module(library(filesex),
-              [ delete_directory_and_contents/1, directory_file_path/3,
-                make_directory_path/1 ]).
+              [ copy_file/2, delete_directory_and_contents/1,
+                directory_file_path/3, make_directory_path/1 ]).
 :- use_module(library(lists), [append/3, member/2, memberchk/2]).
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_create/3, process_wait/2]).
@@ -17,9 +17,9 @@
 
 /** <module> Programs in virtual time give the same logs in WebAssembly
 
-The sessions of each document that uses virtual time are played twice, by this
-Prolog and by one from the saved state of the playground, see lib/wasm/play.pl.
-Answers and logs are compared byte by byte.
+The sessions of each document that uses virtual time, and one of each mechanism,
+are played twice, by this Prolog and by one from the saved state of the
+playground, see lib/wasm/play.pl.  Answers and logs are compared byte by byte.
 
 *Threading*: the main thread.
 */
@@ -41,8 +41,12 @@ drop_state :-
 
 test(same_bytes, [forall(virtual_document(File, Blocks)),
                   Different-File == []-File]) :-
-    state(Root),
-    with_tmp_dir(Dir, played(Dir, Root, Blocks, Different)).
+    in_both(document(Blocks), Different).
+test(same_mechanism, [forall(member(Name, [ synchronisation, population,
+                                            allocation, learning,
+                                            hierarchy ])),
+                      Different-Name == []-Name]) :-
+    in_both(mechanism(Name), Different).
 
 :- end_tests(playground).
 
@@ -56,21 +60,31 @@ virtual_document(Path, Blocks) :-
            sub_string(Line, _, _, _, "clock(virtual)") )),
     memberchk(block("prolog-session", _, _), Blocks).
 
+in_both(What, Different) :-
+    state(Root),
+    with_tmp_dir(Dir, played(Dir, Root, What, Different)).
+
 %   Both play in a folder of the same name, as logs hold names of files.
 
-played(Dir, Root, Blocks, Different) :-
+played(Dir, Root, What, Different) :-
     directory_file_path(Dir, native, Native),
     directory_file_path(Dir, fresh, Fresh),
     directory_file_path(Dir, wasm, Wasm),
-    prepare(Native, Blocks),
-    prepare(Fresh, Blocks),
+    prepare(What, Native),
+    prepare(What, Fresh),
     play_here(Native),
     directory_file_path(Root, state, State),
     project_file('test/lib/wasm/play.js', Script),
     run(path(node), [Script, State, Fresh, Native, Wasm], [], exit(0)),
     different(Native, Wasm, Different).
 
-prepare(Dir, Blocks) :-
+prepare(mechanism(Name), Dir) :-
+    make_directory_path(Dir),
+    atomic_list_concat(['test/lib/wasm/mechanisms/', Name, '.pl'], Path),
+    project_file(Path, File),
+    directory_file_path(Dir, 'session.pl', Session),
+    copy_file(File, Session).
+prepare(document(Blocks), Dir) :-
     make_directory_path(Dir),
     maplist(block_write(Dir), Blocks),
     findall(Goal,
