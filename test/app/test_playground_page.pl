@@ -40,7 +40,8 @@ reply(Dir, Request) :-
 
 failing(Names) :-
     built(Dir),
-    http_server(test_playground_page:reply(Dir), [port(localhost:Port), workers(4)]),
+    http_server(test_playground_page:reply(Dir), [ port(localhost:Port), workers(4),
+                                                 keep_alive_timeout(0.5) ]),
     format(atom(Address), 'http://localhost:~w/', [Port]),
     with_browser(Browser,
                  ( call_cleanup(failing(scene, Browser, Address, Names0),
