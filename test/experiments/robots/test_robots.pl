@@ -284,7 +284,7 @@ test(in_step) :-
           no_leaks(small_run(Study, [way-in_step], Dir, Case-Ms)),
           assertion(Ms.executions =:= 16),
           assertion(Ms.out_of_order =:= 0),
-          assertion(Ms.early =:= 0),
+          assertion(Ms.overlaps =:= 0),
           assertion(Ms.tilt =< Ms.tilt_limit),
           assertion(abs(Ms.carried - 1.2) < 0.05),
           atom_concat(Dir, '/arena.pl', Log),
