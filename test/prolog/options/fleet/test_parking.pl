@@ -20,7 +20,7 @@
 :- use_module(library(typhon/options/fleet),
               [fleet_park_drop/2, fleet_park_send/2]).
 
-:- needs([fleet]).
+:- needs([fleet, journal]).
 
 %   with_robot(+Joins, +Options, -Redis, -Robot, :Goal): this process, with the
 %   host alpha, and one with the host Robot, are members.
