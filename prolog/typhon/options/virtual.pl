@@ -1,6 +1,8 @@
 :- module(typhon_virtual,
           [ virtual_pace/1,             % +Pace
-            virtual_paced/1             % -Pace
+            virtual_paced/1,            % -Pace
+            virtual_run/4,              % +Queue, +Stamp, +Seconds, -When
+            virtual_program/2           % :Goal, -Engine
           ]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
@@ -263,13 +265,9 @@ wait_until_message(Queue, Stamp) :-
                 *       TIME IN SLICES         *
                 *******************************/
 
-:- public
-    virtual_run/4,
-    virtual_program/2.
-
 :- meta_predicate virtual_program(0, -).
 
-%   virtual_run(+Queue, +Stamp, +Seconds, -When) is semidet.
+%!  virtual_run(+Queue, +Stamp, +Seconds, -When) is semidet.
 %
 %   Without threads: let virtual time run at its pace, without one as fast as
 %   possible, until Queue holds a message or until Stamp, but only for about
@@ -297,7 +295,7 @@ virtual_run(Queue, Stamp, Seconds, When) :-
           message_queue_destroy(Reply)
         )).
 
-%   virtual_program(:Goal, -Engine) is det.
+%!  virtual_program(:Goal, -Engine) is det.
 %
 %   Engine runs Goal.  When Goal waits for virtual time, engine_next/2 and
 %   engine_post/3 give virtual_wait(Queue, Stamp), for virtual_run/4; then Engine

@@ -50,6 +50,17 @@ finished(Base, Model) :-
     wait_until(( model(Base, _{}, Now), Now.state \== "running" ), 60),
     model(Base, _{}, Model).
 
+%   stubborn(+Request): a model whose run waits for ever, and catches all.
+
+stubborn(about("Stubborn", [])).
+stubborn(set_up([])).
+stubborn(measures([])).
+stubborn(end).
+stubborn(run) :-
+    repeat,
+    catch(thread_get_message(never), _, true),
+    fail.
+
 :- begin_tests(live_study).
 
 test(parameters_have_ranges, All == [ "seed"-1-100, "strategy"-["random","conscientious"],
@@ -100,6 +111,15 @@ test(set_up_starts_anew) :-
     assertion(memberchk(_{name:"side", value:"4", from:3, to:9, step:1},
                         Two.parameters)),
     length(Told.answer.hosts, 16).
+
+test(run_that_catches_all_is_ended, true(Two \== One)) :-
+    no_leaks(with_page([model(test_live_study:stubborn)], Base,
+                       ( begin(Base, _{}),
+                         model(Base, _{}, First),
+                         begin(Base, _{}),
+                         model(Base, _{}, Second) ))),
+    One = First.run,
+    Two = Second.run.
 
 test(failure_is_shown) :-
     page(Base, ( begin(Base, _{side:"9", limit:"1"}), finished(Base, Model) )),

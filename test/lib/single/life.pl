@@ -130,7 +130,7 @@ busy(Outcome) :-
     create([ (:- agent(sleeper, [])), (main :- sleep(0.05)) ],
            Sleeper, [host(a)]),
     agents_run(0.2),
-    agent_join(Sleeper, Outcome, 0.2),
+    agent_join(Sleeper, Outcome, 10),
     agent_dispose(Busy).
 
 rests(Answer) :-

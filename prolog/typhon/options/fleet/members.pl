@@ -377,8 +377,10 @@ has_lease(Fleet, Endpoint, Token) :-
     ).
 
 gives_back(Fleet) :-
-    forall(retract(member(Fleet, Endpoint, Token)),
-           engine_script(Fleet, leave, [Endpoint,Token], _)).
+    findall([Endpoint,Token], member(Fleet, Endpoint, Token), All),
+    retractall(member(Fleet, _, _)),
+    forall(member(Args, All),
+           engine_script(Fleet, leave, Args, _)).
 
                 /*******************************
                 *        WITHOUT A THREAD      *

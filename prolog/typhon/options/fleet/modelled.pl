@@ -429,7 +429,10 @@ send_back(Id, Why, Fleet) :-
     assertz(parked(Id, Fleet, Hops, N, inf, From, From, Since)),
     (   E == Old
     ->  true
-    ;   forall(retract(item(Old, Fleet, _, _, mail(Id, Name, Letter))),
+    ;   findall(Name-Letter, item(Old, Fleet, _, _, mail(Id, Name, Letter)),
+                Letters),
+        retractall(item(Old, Fleet, _, _, mail(Id, _, _))),
+        forall(member(Name-Letter, Letters),
                put_item(E, Fleet, Letter, mail(Id, Name, Letter), _))
     ).
 

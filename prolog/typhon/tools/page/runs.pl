@@ -7,7 +7,8 @@
             runs_stop/0
           ]).
 :- use_module(library(error), [domain_error/2]).
-:- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
+:- use_module('../../kernel/base/own_thread',
+              [abort_quietly/0, in_own_thread/1, stop_thread/1]).
 :- use_module('../../kernel/host', [time_kind/1, time_now/1, time_wait/3]).
 :- autoload('../../options/virtual', [virtual_pace/1, virtual_paced/1]).
 :- use_module(slices, [slices_begin/1, slices_end/0]).
@@ -149,7 +150,7 @@ run_begin(Goal, slices) :-
     !,
     slices_begin(Goal).
 run_begin(Goal, thread(Thread)) :-
-    thread_create(catch(waiting_itself(Goal), run_ended, true), Thread).
+    thread_create(waiting_itself(Goal), Thread).
 
 waiting_itself(Goal) :-
     thread_self(Me),
@@ -161,9 +162,9 @@ waiting_itself(Goal) :-
 run_end(slices) :-
     slices_end.
 run_end(thread(Thread)) :-
-    catch(thread_signal(Thread, throw(run_ended)),
+    catch(thread_signal(Thread, abort_quietly),
           error(existence_error(_, _), _), true),
-    thread_join(Thread, _).
+    stop_thread(Thread).
 
 %!  runs_rest is det.
 %!  runs_stop is det.

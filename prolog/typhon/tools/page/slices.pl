@@ -3,10 +3,10 @@
             slices_end/0,
             slice_run/2                 % +Seconds, -When
           ]).
-:- autoload('../../options/virtual', [virtual_paced/1]).
+:- autoload('../../options/virtual',
+            [virtual_paced/1, virtual_program/2, virtual_run/4]).
 :- use_module(library(lists), [memberchk/2]).
 :- use_module('../../kernel/host', [time_kind/1]).
-:- use_module('../../options/virtual', []).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 
 /** <module> A program beside the page, without threads
@@ -30,13 +30,14 @@ because the page wants it.
 %   Let Goal run to its first wait; end it, wherever it is.
 
 slices_begin(Goal) :-
-    typhon_virtual:virtual_program(ignore(Goal), Engine),
+    virtual_program(ignore(Goal), Engine),
     assertz(program(Engine, none)),
     go_on(next, Engine).
 
 slices_end :-
-    forall(retract(program(Engine, _)),
-           catch(engine_destroy(Engine), error(_, _), true)).
+    forall(program(Engine, _),
+           catch(engine_destroy(Engine), error(_, _), true)),
+    retractall(program(_, _)).
 
 go_on(How, Engine) :-
     retractall(program(Engine, _)),
@@ -64,12 +65,12 @@ slice_run(_, rests) :-
 slice_run(Seconds, When) :-
     program(Engine, virtual_wait(Queue, Stamp)),
     !,
-    typhon_virtual:virtual_run(Queue, Stamp, Seconds, How),
+    virtual_run(Queue, Stamp, Seconds, How),
     after_slice(How, Engine, When).
 slice_run(Seconds, When) :-
     setup_call_cleanup(
         message_queue_create(Queue),
-        typhon_virtual:virtual_run(Queue, inf, Seconds, When),
+        virtual_run(Queue, inf, Seconds, When),
         message_queue_destroy(Queue)).
 
 after_slice(How, Engine, When) :-
