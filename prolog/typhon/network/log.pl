@@ -120,6 +120,8 @@ stop(Name, Address) :-
     ).
 
 typhon_log_file:about_to_read(File) :-
+    server(_, _, File, _),
+    !,
     forall(server(_, Writer, File, _),
            in_own_thread(writer_flush(Writer))).
 

@@ -27,7 +27,7 @@ cut short by a crash costs only that line.
     prolog:message//1.
 
 %   about_to_read(+File) is a hook: write the pending events of this process
-%   that belong to File.
+%   that belong to File; fail if it writes none there.
 
 %!  log_open(+File, +Mode, -Stream) is det.
 %
@@ -54,7 +54,7 @@ log_open(File, Mode, Stream) :-
 %   Size is the size of File in bytes, including all events that have arrived.
 
 log_size(File, Size) :-
-    forall(about_to_read(File), true),
+    ignore(about_to_read(File)),
     size_file(File, Size).
 
 %!  log_goes_on(+File, +Size) is det.
@@ -115,26 +115,33 @@ log_write(Stream, Event) :-
 
 %!  log_read(+File, -Events:list) is det.
 %
-%   See log_events/2.
+%   See log_events/2.  The last line of a file that this process writes may be
+%   there in part: it is not an event yet.
 
 log_read(Spec, Events) :-
     absolute_file_name(Spec, File, [access(read)]),
-    forall(about_to_read(File), true),
+    (   about_to_read(File)
+    ->  Last = being_written
+    ;   Last = written
+    ),
     setup_call_cleanup(
         open(File, read, In, [encoding(utf8)]),
-        read_events(In, File, Events),
+        read_events(In, File, Last, Events),
         close(In)).
 
-read_events(In, File, Events) :-
+read_events(In, File, Last, Events) :-
     line_count(In, Number),
     read_line_to_string(In, Line),
     (   Line == end_of_file
     ->  Events = []
     ;   line_event(Line, Event)
     ->  Events = [Event|Rest],
-        read_events(In, File, Rest)
+        read_events(In, File, Last, Rest)
+    ;   Last == being_written,
+        peek_char(In, end_of_file)
+    ->  Events = []
     ;   print_message(warning, typhon(log_line_skipped(File:Number, Line))),
-        read_events(In, File, Events)
+        read_events(In, File, Last, Events)
     ).
 
 line_event(Line, Event) :-

@@ -311,6 +311,16 @@ test(lines_that_are_cut_are_skipped,
           quietly(log_events(File, Events), Printed) )),
     findall(N, member(event(_, _, _, N), Events), Ns),
     findall(Line, member(log_line_skipped(_:Line, _), Printed), Lines).
+test(line_that_is_being_written_is_not_there_yet, Ns-Printed == [1]-[]) :-
+    with_log([], Address, File,
+             ( arrives(Address, h, a, 1),
+               log_events(File, [_]),
+               setup_call_cleanup(     % the writer's buffer ends in a line
+                   open(File, append, Out),
+                   write(Out, 'event(2.0,h,'),
+                   close(Out)),
+               quietly(log_events(File, Events), Printed) ), _),
+    findall(N, member(event(_, _, _, N), Events), Ns).
 test(no_such_file, error(existence_error(_, _))) :-
     log_events('/no/such/file', _).
 
