@@ -56,10 +56,11 @@ sends news to the home, since that may have to connect.
               [ durable/5, durable/6, durable_assertz/1, durable_drop/3,
                 durable_drop_all/2, durable_on/0, durable_put/4 ]).
 :- use_module('../base/fifo', [fifo_send/2]).
-:- use_module('../host', [address_parts/3, alarm_in/3]).
+:- use_module('../host', [address_parts/3, alarm_in/3, scheduler_call/1]).
 :- use_module('../wire',
               [ arrival_permitted/4, endpoint_address/1, endpoint_gone/1,
-                endpoint_peer/2, endpoint_post/3, endpoint_reply/2 ]).
+                endpoint_peer/2, endpoint_post/3, endpoint_reply/2,
+                endpoint_request/4 ]).
 :- use_module(news, [news_send/3]).
 :- use_module(outcomes, [results_keep/2]).
 :- use_module(sender_authorization, [peer_may_send_for/3]).
@@ -355,11 +356,41 @@ wait_or_answer(_, _, _, unknown).
 
 typhon_scheduler:fire(Id, join(Token)) :-
     !,
+    (   waiter(Id, Token, _),
+        in_doubt(Id, Endpoint)
+    ->  alarm_in(1, Id, looked(Token)),
+        scheduler_call(typhon_whereabouts:look(Endpoint, Id, Token))
+    ;   timed_out(Id, Token)
+    ).
+typhon_scheduler:fire(Id, looked(Token)) :-
+    !,
+    timed_out(Id, Token).
+
+timed_out(Id, Token) :-
     (   retract(waiter(Id, Token, Asker))
     ->  at_timeout(Id, Outcome),
         send_outcome(Asker, Outcome)
     ;   true
     ).
+
+%   in_doubt(+Id, -Endpoint) is semidet: the connection to the process of Id has
+%   ended, and nobody has connected since, as there was nothing to send.
+
+in_doubt(Id, Endpoint) :-
+    born(Id, Host, _, Process),
+    Process \== unknown,
+    address_parts(Host, _, Endpoint),
+    \+ endpoint_gone(Endpoint),
+    endpoint_peer(Endpoint, state(down)),
+    endpoint_peer(Endpoint, pending(0)),
+    !.
+
+look(Endpoint, Id, Token) :-
+    endpoint_request(Endpoint, whereabouts, reached(Id, 0),
+                     typhon_whereabouts:looked(Id, Token)).
+
+looked(Id, Token, _) :-
+    timed_out(Id, Token).
 
 %   Before the timeout the news of a hop from there may be under way.
 
@@ -371,7 +402,9 @@ at_timeout(Id, lost(Host)) :-
     !.
 at_timeout(_, timeout).
 
-typhon_scheduler:over(Id, join(Token)) :-
+typhon_scheduler:over(Id, Alarm) :-
+    ( Alarm = join(Token) ; Alarm = looked(Token) ),
+    !,
     \+ waiter(Id, Token, _).
 
 send_outcome(queue(Queue, Tag), Outcome) :-

@@ -36,6 +36,10 @@ test(agent_whose_process_is_gone_is_lost, Outcome == lost(B)) :-
                             10),
                  wait_until(peer_do(a, typhon_whereabouts:home_knows(Id, B, _, _)), 10),
                  peer_do(a, agent_join(Id, timeout, 0)),
+                 atomic_list_concat([_, There], @, B),
+                 wait_until(peer_do(a, typhon_peer_cache:endpoint_peer(
+                                             There, pending(0))),
+                            10),
                  peer_kill(b),
                  wait_until(( peer_do(a, agent_join(Id, Outcome, 0.5)),
                               Outcome \== timeout ), 30) )).
