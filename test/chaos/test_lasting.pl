@@ -17,9 +17,9 @@ test(power_failure_loses_no_acknowledged_commit, Wrong == []) :-
     with_tmp_dir(attacked([ processes(2), agents(10), hops(20), sync(full),
                             crash(0), power(0.1), most(6) ], Wrong)).
 
-test(ten_thousand_hops_lose_and_duplicate_no_agent, Wrong == []) :-
-    with_tmp_dir(attacked([ processes(3), agents(100), hops(100),
-                            crash(0.00003), kill(3), most(30) ],
+test(hops_among_three_processes_lose_and_duplicate_no_agent, Wrong == []) :-
+    with_tmp_dir(attacked([ processes(3), agents(100), hops(30),
+                            crash(0.0001), kill(1.5), most(20) ],
                           Wrong)).
 
 %   No process is killed here, so each has to commit again by itself.
