@@ -104,7 +104,9 @@ playground(Dir) :-
     with_playground,
     !,
     directory_file_path(Dir, play, Play),
-    process_create(path(node), ['app/playground/build.js', Play], [process(Pid)]),
+    process_create(path(node),
+                   ['--liftoff-only', 'app/playground/build.js', Play],
+                   [process(Pid)]),
     process_wait(Pid, exit(0)).
 playground(_).
 

@@ -31,7 +31,7 @@ save_state :-
     make_directory_path(Dir),
     directory_file_path(Dir, state, State),
     project_file('app/playground/state.js', Script),
-    run(path(node), [Script, State], [], exit(0)),
+    node([Script, State]),
     assertz(state(Dir)).
 
 drop_state :-
@@ -75,7 +75,7 @@ played(Dir, Root, What, Different) :-
     play_here(Native),
     directory_file_path(Root, state, State),
     project_file('test/lib/wasm/play.js', Script),
-    run(path(node), [Script, State, Fresh, Native, Wasm], [], exit(0)),
+    node([Script, State, Fresh, Native, Wasm]),
     different(Native, Wasm, Different).
 
 prepare(mechanism(Name), Dir) :-
@@ -103,6 +103,11 @@ play_here(Dir) :-
     current_prolog_flag(executable, Swipl),
     run(Swipl, [ '-p', Path, '-g', 'play(\'session.pl\')', '-t', halt, Play ],
         [cwd(Dir)], exit(0)).
+
+%   Optimising WebAssembly takes longer than it saves in a short run.
+
+node(Args) :-
+    run(path(node), ['--liftoff-only'|Args], [], exit(0)).
 
 run(Program, Args, Options, Status) :-
     process_create(Program, Args,

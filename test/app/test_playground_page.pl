@@ -20,7 +20,7 @@
 built(Dir) :-
     tmp_file(playground, Dir),
     project_file('app/playground/build.js', Script),
-    process_create(path(node), [Script, Dir],
+    process_create(path(node), ['--liftoff-only', Script, Dir],
                    [ stdout(null), stderr(pipe(Err)), process(Pid) ]),
     read_string(Err, _, Said),
     close(Err),
