@@ -199,7 +199,8 @@ group(Group) :-
     headed(Text, '\n## ', Heading, Section),
     findall(Part-Pages,
             ( headed(Section, '\n### ', Part, Listed),
-              pages(Listed, Pages) ),
+              pages(Listed, Pages),
+              Pages \== [] ),
             Parts),
     (   Parts == []
     ->  pages(Section, Items)

@@ -28,3 +28,4 @@ folder('*.md').
 folder('doc/*.md').
 folder('doc/course/*.md').
 folder('doc/decisions/*.md').
+folder('doc/fidelity/*.md').

@@ -407,7 +407,7 @@ test(links_resolve, Broken == []) :-
             Broken).
 
 test(sections_are_four,
-     Titles == ['Platform', 'Mechanisms', 'Course', 'Development']) :-
+     Titles == ['Platform', 'Thesis', 'Course', 'Development']) :-
     findall(Title, section(Title, _), Titles).
 test(each_document_is_in_one_section, Others == []) :-
     findall(File-Titles,

@@ -223,7 +223,7 @@ test(navigation_has_every_document, Missing == []) :-
 test(menu_has_the_sections, Titles == Expected) :-
     menu(Titles),
     findall(Title,
-            ( member(Title, [ 'Start', 'Platform', 'Mechanisms', 'Course',
+            ( member(Title, [ 'Start', 'Platform', 'Thesis', 'Course',
                               'Development', 'Predicates' ]),
               ( Title == 'Course' -> installed(studies) ; true ) ),
             Expected).
