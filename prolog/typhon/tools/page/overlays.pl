@@ -18,6 +18,7 @@
 :- use_module(library(prolog_source),
               [ prolog_close_source/1, prolog_open_source/2,
                 prolog_read_source_term/4 ]).
+:- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(protocol, [event_row/2, name_text/2, number_json/2, text/2]).
 :- use_module('../../kernel/program', []).        % where agents(Name) is found
 
@@ -73,6 +74,7 @@ overlays_shown(Dicts) :-
 %
 %   Overlays are the facts overlay/4 in Files, and in all files below agents/,
 %   but not in files that these include.  Terms that cannot be read are skipped.
+%   Most files have none, and are not read as terms.
 %
 %   @error existence_error(source_sink, File)
 
@@ -91,10 +93,14 @@ declaring(_, File) :-
     directory_member(Folder, File, [extensions([pl]), recursive(true)]).
 
 overlays_in(File, Overlays) :-
-    setup_call_cleanup(
-        open(File, read, In, [encoding(utf8)]),
-        overlays_from(In, Overlays),
-        close(In)).
+    read_file_to_string(File, Text, [encoding(utf8)]),
+    (   sub_string(Text, _, _, _, "overlay(")
+    ->  setup_call_cleanup(
+            open_string(Text, In),
+            overlays_from(In, Overlays),
+            close(In))
+    ;   Overlays = []
+    ).
 
 overlays_from(In, Overlays) :-
     catch(read_term(In, Term, [module(typhon_page_overlays)]),
