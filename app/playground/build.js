@@ -1,17 +1,18 @@
 // node app/playground/build.js DIRECTORY: makes the playground there, a static
 // site: the page, SWI-Prolog for WebAssembly, and a saved state in which the
-// platform is loaded.
+// platform is loaded.  Servers compress it, so no file is compressed here.
 
 'use strict';
 const fs = require('fs'), path = require('path');
+const vm = require('vm');
 const { execFileSync } = require('child_process');
 const { createHash } = require('crypto');
 const { save, sources } = require('./state.js');
 
 const root = path.join(__dirname, '../..');
-const wasm = path.join(root, 'test/lib/wasm');
 const page = path.join(root, 'prolog/typhon/tools/page/www');
-const READ = ['agents', 'payloads', 'examples/studies',   // that programs may name
+const NAMED = ['agents', 'payloads'];             // by programs
+const READ = ['examples/studies',                 // by studies
   ...['allocation', 'hierarchy', 'learning', 'population', 'sieve', 'sync']
     .map(name => `experiments/${name}`)];
 
@@ -30,8 +31,23 @@ function programs() {
   const titled = sessions.map(({ id, ...rest }) =>
     ({ id, title: id.replace(/^doc\//, ''), ...rest }));
   return titled.concat(STUDIES.map(study => ({ id: study, title: study, queries: [],
-    study: path.basename(study), folder: `/typhon/${path.dirname(study)}`,
-    files: sources(path.dirname(study)).map(name => [path.basename(name), text(name)]) })));
+    study: path.basename(study), folder: `/typhon/${path.dirname(study)}` })));
+}
+
+const files = folders => JSON.stringify(Object.fromEntries(folders.flatMap(sources)
+  .map(name => [`/typhon/${name}`, text(name)])));
+
+// SWI-Prolog without the bytes of its module, and these: so a browser compiles
+// while it loads them.
+function split(bundle) {
+  const [, literal] = /binaryDecode\(('(?:[^'\\]|\\[^])*')\)/.exec(bundle);
+  const coded = vm.runInNewContext(literal);
+  const bytes = Buffer.alloc(coded.length);
+  for (let i = 0; i < bytes.length; i++) {
+    const code = coded.charCodeAt(i);
+    bytes[i] = ~code >> 8 & code;
+  }
+  return [bundle.replace(literal, () => "''"), bytes];
 }
 
 async function build(to) {
@@ -43,10 +59,12 @@ async function build(to) {
     'worker.js'])
     put(name, fs.readFileSync(path.join(__dirname, name)));
   put('programs.json', JSON.stringify(programs()));
-  put('swipl.js', fs.readFileSync(path.join(wasm, 'swipl-bundle-no-data.js')));
+  const [script, bytes] = split(text('test/lib/wasm/swipl-bundle-no-data.js'));
+  put('swipl.js', script);
+  put('swipl.wasm', bytes);
   put('typhon.state', await save('app/playground/playground.pl'));
-  put('sources.json', JSON.stringify(Object.fromEntries(READ.flatMap(sources)
-    .map(name => [`/typhon/${name}`, text(name)]))));
+  put('sources.json', files(NAMED));
+  put('studies.json', files(READ));
   // The service worker keeps exactly these files, of this version.
   const names = fs.readdirSync(to).filter(name => name !== 'sw.js').sort();
   const hash = createHash('sha256');

@@ -7,6 +7,8 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(qsave), [qsave_program/2]).
 :- use_module(library(readutil), [read_file_to_terms/3]).
+:- use_module(library(zip),
+              [ with_zipper/2, zip_close/1, zip_open/4, zipper_members/2 ]).
 :- use_module('../../prolog/typhon', []).
 :- use_module(library(aggregate), []).
 :- use_module(library(assoc), []).
@@ -15,11 +17,11 @@
 :- use_module(library(dicts), []).
 :- use_module(library(gensym), []).
 :- use_module(library(heaps), []).
-:- use_module(library(main), []).
 :- use_module(library(nb_set), []).
 :- use_module(library(occurs), []).
 :- use_module(library(ordsets), []).
 :- use_module(library(pairs), []).
+:- use_module(library(prolog_debug), []).        % spy/1
 :- use_module(library(random), []).
 :- use_module(library(rbtrees), []).
 :- use_module(library(solution_sequences), []).
@@ -39,7 +41,7 @@ Booting it loads nothing; no file has to be there.
 */
 
 :- dynamic
-    kept/2.                     % File, Terms: of a loaded file, or of an index of
+    kept/2.                     % File, Text: of a loaded file, or of an index of
                                 % libraries
 
 %!  platform_save(+State) is det.
@@ -53,8 +55,37 @@ platform_save(State) :-
     forall(absolute_file_name(library('INDEX.pl'), File,
                               [solutions(all), access(read)]),
            keep_index(File)),
-    qsave_program(State, [ stand_alone(false), autoload(false),
-                           foreign(no_save) ]).
+    atom_concat(State, '.zip', Packed),
+    qsave_program(Packed, [ stand_alone(false), autoload(false),
+                            foreign(no_save) ]),
+    store(Packed, State).
+
+%   The whole is compressed on its way, which makes less of it than compressing
+%   its parts here does.
+
+store(Packed, State) :-
+    setup_call_cleanup(
+        zip_open(Packed, read, From, []),
+        setup_call_cleanup(
+            zip_open(State, write, To, []),
+            ( zipper_members(From, Names),
+              forall(member(Name, Names), store_member(From, Name, To)) ),
+            zip_close(To)),
+        zip_close(From)).
+
+store_member(From, Name, To) :-
+    with_zipper(From,
+                ( zipper_goto(From, file(Name)),
+                  copy_member(From, Name, To) )).
+
+copy_member(From, Name, To) :-
+    setup_call_cleanup(
+        zipper_open_current(From, In, [type(binary), release(false)]),
+        setup_call_cleanup(
+            zipper_open_new_file_in_zip(To, Name, Out, [method(store)]),
+            copy_stream_data(In, Out),
+            close(Out)),
+        close(In)).
 
 load_parts :-
     forall(( directory_member('/typhon/prolog/typhon', File,
@@ -96,15 +127,24 @@ later_library(Spec) :-
                        [file_type(prolog), access(read), file_errors(fail)]),
     file_name_extension(Base, _, File),     % it may be compiled
     file_name_extension(Base, pl, Source),
-    \+ source_file(Source).
+    \+ source_file(Source),
+    file_base_name(Base, Name),
+    \+ developers_library(Name).
+
+%   Tools for programmers, which others load; no program of an agent uses them.
+
+developers_library(check).
+developers_library(predicate_options).
+developers_library(prolog_autoload).
+developers_library(prolog_codewalk).
 
 %   Prolog looks for the exports of a module in its file also if that is loaded.
 
 keep_head(File) :-
     (   module_property(Module, file(File))
     ->  module_property(Module, exports(Exports)),
-        assertz(kept(File, [(:- module(Module, Exports))]))
-    ;   assertz(kept(File, []))
+        keep(File, [(:- module(Module, Exports))])
+    ;   keep(File, [])
     ).
 
 %   Only libraries that are loaded can be loaded by Prolog itself.
@@ -119,7 +159,12 @@ keep_index(File) :-
               atomic_list_concat([Directory, /, Library, '.pl'], Source),
               source_file(Source) ),
             Terms),
-    assertz(kept(File, Terms)).
+    keep(File, Terms).
+
+keep(File, Terms) :-
+    with_output_to(string(Text),
+                   forall(member(Term, Terms), format('~q.~n', [Term]))),
+    assertz(kept(File, Text)).
 
 %!  platform_boot is det.
 %
@@ -128,13 +173,13 @@ keep_index(File) :-
 platform_boot :-
     set_prolog_flag(autoload, true),
     create_prolog_flag(home, '/swipl', []),
-    forall(kept(File, Terms), write_terms(File, Terms)),
+    forall(kept(File, Text), write_file(File, Text)),
     reload_library_index.
 
-write_terms(File, Terms) :-
+write_file(File, Text) :-
     file_directory_name(File, Directory),
     make_directory_path(Directory),
     setup_call_cleanup(
         open(File, write, Out, [encoding(utf8)]),
-        forall(member(Term, Terms), format(Out, '~q.~n', [Term])),
+        write(Out, Text),
         close(Out)).

@@ -58,11 +58,23 @@ class Playground {
       const id = kind === 'doc' ? decodeURIComponent(text) : EXAMPLE;
       const program = kind === 'p' ? await Share.unpack(text) : this.programs.get(id);
       if (!program) throw new Error(`There is no program ${id}`);
+      if (program.study) await this.loadStudies();
       this.which.value = kind === 'p' ? '' : id;
-      this.show(program);
+      this.show({ files: this.filesOf(program), ...program });
     } catch (error) {
       app.note(`The link cannot be read: ${error.message}`, 'error');
     }
+  }
+
+  async loadStudies() {
+    this.studies ??= await fetch('studies.json').then(got => got.json());
+  }
+
+  // The files of a study are those of its folder.
+  filesOf({ folder }) {
+    return Object.entries(this.studies ?? {})
+      .filter(([name]) => name.replace(/\/[^/]*$/, '') === folder)
+      .map(([name, text]) => [name.replace(/.*\//, ''), text]);
   }
 
   show({ files, queries, study, folder }) {
@@ -134,7 +146,7 @@ class Playground {
       this.loaded = study;
       this.begun = true;
       const overlays = [...store.overlays.values()];
-      await connection.ready;
+      if (study) await connection.post({ do: 'save', files: this.studies });
       await app.ask({ do: 'play', files: Object.fromEntries(files),
         ...(study ? { study, folder } : { queries: queries.join('\n') }) });
       store.reset();

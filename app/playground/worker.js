@@ -1,5 +1,5 @@
 // Runs Prolog: queries and orders of the page, and virtual time in slices. It
-// takes {do: 'first'}, {ask: text} and {play: message}, with an id, and sends
+// takes {do: 'first'}, {do: 'save', files} and {ask: text}, with an id, and sends
 // {id, reply} or {id, error}, {frame}, and {said: [line]}.
 
 'use strict';
@@ -8,7 +8,7 @@ const SLICE = 0.03;             // s of work between two looks at messages
 const SOON = 0.25;              // s, at most, between two slices
 const LINES = 2000;             // of output between two messages
 const MEMORY = 2 ** 30;         // bytes, between two slices
-let prolog = null, memory = { buffer: [] }, timer = null, said = [];
+let prolog = null, FS = null, memory = null, timer = null, said = [];
 
 const say = line => {
   if (said.length < LINES) said.push(line);
@@ -24,32 +24,39 @@ function closeDoors() {
     } catch { /* not there */ }
 }
 
-// SWI-Prolog does not show its memory.
-function noteMemory() {
-  const { instantiate } = WebAssembly;
-  WebAssembly.instantiate = async (...given) => {
-    const made = await instantiate(...given);
-    for (const value of Object.values((made.instance ?? made).exports))
-      if (value instanceof WebAssembly.Memory) memory = value;
-    return made;
-  };
+function save(files) {
+  for (const [name, text] of Object.entries(files)) {
+    FS.mkdirTree(name.replace(/\/[^/]*$/, ''));
+    FS.writeFile(name, text);
+  }
+}
+
+const load = async name => (await fetch(name)).arrayBuffer();
+
+// Compile the module while it comes, also if the server does not know its type.
+async function compile() {
+  const { body } = await fetch('swipl.wasm');
+  return WebAssembly.compileStreaming(
+    new Response(body, { headers: { 'Content-Type': 'application/wasm' } }));
 }
 
 async function begin() {
-  noteMemory();
-  const [state, sources] = await Promise.all([
-    fetch('typhon.state').then(got => got.arrayBuffer()),
-    fetch('sources.json').then(got => got.json())]);
+  const got = Promise.all([compile(), load('typhon.state'), load('sources.json')]);
   importScripts('swipl.js');
-  const made = await SWIPL({ arguments: ['-x', '/typhon.state', '-q',
-    '--stack-limit=256m'], print: say, printErr: say,
-  preRun: [({ FS }) => FS.writeFile('/typhon.state', new Uint8Array(state))] });
-  for (const [name, text] of Object.entries(sources)) {
-    made.FS.mkdirTree(name.replace(/\/[^/]*$/, ''));
-    made.FS.writeFile(name, text);
-  }
+  const [module, state, sources] = await got;
+  ({ FS, prolog } = await SWIPL({
+    arguments: ['-x', '/typhon.state', '-q', '--stack-limit=256m'],
+    print: say, printErr: say,
+    preRun: [made => made.FS.writeFile('/typhon.state', new Uint8Array(state))],
+    async instantiateWasm(imports, made) {
+      const instance = await WebAssembly.instantiate(module, imports);
+      memory = Object.values(instance.exports).find(value =>
+        value instanceof WebAssembly.Memory);
+      made(instance);
+    },
+  }));
   closeDoors();
-  prolog = made.prolog;
+  save(JSON.parse(new TextDecoder().decode(sources)));
   once('platform_boot');
   once('typhon_playground:playground_begin');
 }
@@ -89,7 +96,9 @@ const ready = begin();
 onmessage = async ({ data: { id, ...message } }) => {
   try {
     await ready;
-    if (message.do === 'first')
+    if (message.do === 'save')
+      postMessage({ id, reply: save(message.files) });
+    else if (message.do === 'first')
       postMessage({ id, reply: 'ready',
         frame: text(once('typhon_page_tab:tab_first(Json)').Json) });
     else
