@@ -1,39 +1,39 @@
-/* The processes of test_two_machines.pl, each in its own network namespace.
+/* The processes of test_several_machines.pl.
 */
 
 :- use_module(common).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(settings), [set_setting/2]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/network)).
 
-%   The interfaces over which a network of six hosts is spread, and the facts
-%   that an agent collects on all of them.
+%   The interfaces over which a network of two hosts for each of Machines is
+%   spread, and the number of hosts that an agent visits on its round.
 
-network_over(Here, There, Rsh) :-
-    set_setting(typhon_children:ssh, Rsh),
-    network_start(ring(6), Network,
-                  [ bind(Here), machines([local, There]) ]),
+network_over(Machines) :-
+    getenv('TYPHON_BIND', Here),
+    length(Machines, Count),
+    N is 2*Count,
+    network_start(ring(N), Network, [bind(Here), machines(Machines)]),
     network_property(Network, hosts(Hosts)),
     findall(Interface,
             ( member(Host, Hosts), interface(Host, Interface) ), Interfaces),
     Hosts = [First|_],
     agent_create(clauses([ (:- agent(rounder, [state([at/1])])),
-                           ( main :- here(H), assertz(at(H)), step(6) ),
+                           ( main :- here(H), assertz(at(H)), step(N) ),
                            ( step(0) :- !, findall(H, at(H), Hs),
-                                        sort(Hs, Set), length(Set, N),
-                                        leave(round(N)) ),
-                           ( step(N) :- next(H), move(H),
-                                        assertz(at(H)), N1 is N - 1,
-                                        step(N1) ),
+                                        sort(Hs, Set), length(Set, Seen),
+                                        leave(round(Seen)) ),
+                           ( step(I) :- next(H), move(H),
+                                        assertz(at(H)), I1 is I - 1,
+                                        step(I1) ),
                            ( next(H) :- neighbours(Hs), member(H, Hs),
                                         \+ at(H), ! ),
                            ( next(H) :- home(H) ) ]),
                  Agent, [host(First)]),
     agent_join(Agent, Outcome, 30),
-    remote(First, take(round(Count))),
+    remote(First, take(round(Seen))),
     network_stop(Network),
-    say(network(Interfaces, Outcome, Count)).
+    say(network(Interfaces, Outcome, Seen)).
 
 interface(Host, Interface) :-
     atomic_list_concat([_, Endpoint], @, Host),
@@ -48,14 +48,21 @@ host_at(Name, Interface) :-
     read(user_input, _),
     host_stop(Name).
 
-%   An agent goes from a host here to Far and back.
+%   The process that Command starts has a host; an agent goes there and back.
 
-visit(Interface, Far) :-
-    host_start(near, [bind(Interface)]),
-    catch(visit(Far), error(Formal, _), say(error(Formal))),
-    host_stop(near).
+visit(Command) :-
+    getenv('TYPHON_BIND', Here),
+    getenv('TYPHON_MACHINES', Machine),
+    process_create(path(ssh), [Machine, Command],
+                   [stdin(pipe(In)), stdout(pipe(Out)), process(Pid)]),
+    read(Out, Far),
+    host_start(near, [bind(Here)]),
+    catch(visit_at(Far), error(Formal, _), say(error(Formal))),
+    host_stop(near),
+    close(In),
+    process_wait(Pid, _).
 
-visit(Far) :-
+visit_at(Far) :-
     link(near, Far),
     agent_create(clauses([ (:- agent(visitor, [])),
                            ( main :- neighbours([H]), move(H), here(There),
@@ -64,7 +71,7 @@ visit(Far) :-
                  Agent, [host(near)]),
     agent_join(Agent, Outcome, 20),
     remote(near, take(seen(There))),
-    say(visited(Outcome, There)).
+    say(visited(Outcome, Far, There)).
 
 say(Term) :-
     format("~q.~n", [Term]),
