@@ -12,9 +12,10 @@
 :- use_module('../app/typhon/engine_options', [engine_options/3]).
 :- use_module(engine/commands, [run_command/5]).
 :- use_module(engine/figures, [figures/3]).
+:- use_module(engine/machines, [beside_machines/2]).
 :- use_module(engine/plan,
               [ planned/4, planned_case/4, planned_real/3, plans/3,
-                runs_directory/2 ]).
+                real_way/3, runs_directory/2 ]).
 :- use_module(engine/report, [parameter_rows/3, print_table/3]).
 :- use_module(engine/signals, [stopping_on_signals/1]).
 :- use_module(engine/store, [run_result/3]).
@@ -48,6 +49,9 @@ opt_type(real,    real,    boolean).
 opt_type(page,    page,    boolean).
 opt_type(port,    port,    nonneg).
 opt_type(real_runs, real_runs, natural).
+opt_type(real_clock, real_clock, number).
+opt_type(machines, machines, atom).
+opt_type(bind,    bind,    atom).
 opt_type(means,   means,   boolean).
 opt_type(out,     out,     atom).
 opt_type(fleet,   fleet,   atom).
@@ -82,6 +86,10 @@ opt_help(page,    "Show one run of the first study on a page, with sliders \c
 for its parameters, until Ctrl-C [false]").
 opt_help(port,    "Of that page; 0: any [8080]").
 opt_help(real_runs, "Runs of that case, in real time [1]").
+opt_help(real_clock, "Host seconds in one, in real time [as in real/2]").
+opt_help(machines, "Make that case on machines, too: targets of ssh, with \c
+commas, or a number, of machines that are made on this one").
+opt_help(bind,    "With --machines: the address of this one for them").
 opt_help(means,   "Print means and their confidence intervals, too [false]").
 opt_help(out,     "Directory for runs, tables and pictures [out/studies]").
 opt_help(fleet,   "Share the runs with all processes in which the same \c
@@ -95,6 +103,8 @@ the engine").
 opt_meta(set,  'NAME=VALUE').
 opt_meta(case, 'CASE').
 opt_meta(out,  'DIRECTORY').
+opt_meta(machines, 'MACHINES').
+opt_meta(bind, 'ADDRESS').
 opt_meta(fleet, 'FLEET').
 opt_meta(redis, 'HOST:PORT').
 opt_meta(user, 'NAME').
@@ -167,6 +177,10 @@ perform(Plans, Options) :-
     !,
     figures(Plans, Options, Missing),
     halt_unless_none(Missing).
+perform(_, Options) :-
+    beside_machines(Options, Status),
+    !,
+    halt(Status).
 perform(Plans, Options) :-
     findall(Run, planned(Plans, Options, _, Run), Runs),
     runs_directory(Options, Root),
@@ -200,7 +214,7 @@ halt_unless_none(Count) :-
 make_real(Plans, Root, Options, Failed) :-
     findall(Run, planned_real(Plans, Options, Run), Runs),
     (   Runs == [],
-        option(real(true), Options)
+        real_way(Options, _, _)
     ->  print_message(warning, study_none_is_real)
     ;   true
     ),

@@ -60,6 +60,11 @@ repeated(Options, Argument) :-
     member(set(Setting), Options),
     member(Argument, ['--set', Setting]).
 repeated(Options, Argument) :-
+    member(Name-Option, [ '--machines'-machines(Text), '--bind'-bind(Text),
+                          '--real-clock'-real_clock(Text) ]),
+    option(Option, Options),
+    member(Argument, [Name, Text]).
+repeated(Options, Argument) :-
     member(Argument-Option, [ '--logs'-logs(true), '--real'-real(true),
                               '--replays'-replays(true) ]),
     option(Option, Options).

@@ -2,19 +2,21 @@
           [ figures/3                   % +Plans, +Options, -Missing
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(option), [option/2]).
+:- use_module(library(pairs), [pairs_keys_values/3]).
 :- use_module(library(solution_sequences), [distinct/2]).
-:- use_module(cases, [study_parameter/2]).
+:- use_module(cases, [expected_cases/3, study_parameter/2]).
 :- use_module(commands, [again_command/3]).
-:- use_module(cross_check, [cross_check/4, real_case/4]).
-:- use_module(outcome, [outcome/4]).
+:- use_module(cross_check, [claims_check/5, cross_check/4, real_case/5]).
+:- use_module(outcome, [outcome/4, seed_points/4]).
 :- use_module(page, [page_save/2]).
 :- use_module(picture, [picture/4]).
 :- use_module(plan,
-              [ out_directory/2, planned/4, planned_seed/2,
+              [ out_directory/2, planned/4, planned_seed/2, real_way/3,
                 runs_directory/2 ]).
 :- use_module(replays, [replays_save/3]).
 :- use_module(report,
@@ -64,7 +66,7 @@ show(plan(Study, Given, Cases), Options, Out,
     found(Study, Cases, Options, Runs),
     findall(Seed, planned_seed(Options, Seed), Seeds),
     outcome(plan(Study, Given, Cases), Seeds, Runs, Outcome0),
-    checks(Study, Cases, Runs, Outcome0.rows, Options, Checks),
+    checks(plan(Study, Given, Cases), Runs, Outcome0.rows, Options, Checks),
     Outcome = Outcome0.put(_{given:Given, checks:Checks}),
     findall(run(Case, Seed, measures{}),
             ( member(Case, Cases), member(Seed, Seeds),
@@ -107,19 +109,33 @@ in_picture(lines(_), Runs, NotMade, Shown) :-
     append(Runs, NotMade, Shown).
 in_picture(_, Runs, _, Runs).
 
-%   checks(+Study, +Cases, +Runs, +Rows, +Options, -Checks): compares the case
-%   that also has runs on real sockets.
+%   checks(+Plan, +Runs, +Rows, +Options, -Tables): compares the case that also
+%   has real runs.
 
-checks(Study, Cases, Runs, Rows, Options, Checks) :-
-    option(real(true), Options),
-    real_case(Study, Cases, Case, Real),
+checks(plan(Study, Given, Cases), Runs, Rows, Options, [Measured, Claimed]) :-
+    findall(Case-(Title-Found),
+            ( real_way(Options, Title, Changes),
+              real_case(Study, Cases, Changes, Case, Real),
+              found(Study, [Real], Options, Found) ),
+            Pairs),
+    pairs_keys_values(Pairs, [Case|_], Ways0),
     !,
-    findall(Ms, member(run(Case, _, Ms), Runs), Virtual),
-    found(Study, [Real], Options, RealRuns),
-    findall(Ms, member(run(_, _, Ms), RealRuns), OnSockets),
+    findall(run(Case, Seed, Ms), member(run(Case, Seed, Ms), Runs), Virtual),
+    maplist(title_measures, [virtual-Virtual|Ways0], [_-Of|OfWays]),
     shown_measures(Study, Rows, Measures),
-    cross_check(Virtual, OnSockets, Measures, Checks).
-checks(_, _, _, _, _, []).
+    cross_check(Of, OfWays, Measures, Measured),
+    expected_cases(Study, Given, Expected),
+    findall(Seed-Points, ( planned_seed(Options, Seed),
+                           seed_points(Expected, Runs, Seed, Points) ), OfSeeds),
+    maplist(title_seeds, [virtual-Virtual|Ways0], Ways),
+    claims_check(Study, OfSeeds, Case, Ways, Claimed).
+checks(_, _, _, _, []).
+
+title_measures(Title-Runs, Title-Measures) :-
+    findall(Ms, member(run(_, _, Ms), Runs), Measures).
+
+title_seeds(Title-Runs, Title-Seeds) :-
+    findall(Seed-Measures, member(run(_, Seed, Measures), Runs), Seeds).
 
 %   Name has no value in any run.
 

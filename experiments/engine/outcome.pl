@@ -1,5 +1,6 @@
 :- module(study_outcome,
           [ outcome/4,                  % +Plan, +Seeds, +Runs, -Outcome
+            seed_points/4,              % +Cases, +Runs, +Seed, -Points
             case_numbers/4              % +Runs, +Case, +Measure, -Numbers
           ]).
 :- use_module(library(apply), [exclude/3, include/3, maplist/3]).
@@ -48,15 +49,20 @@ outcome(plan(Study, Given, Cases), Seeds, Runs,
     maplist(length, [Seeds, Cases, Runs], [SeedCount, CaseCount, RunCount]),
     Missing is SeedCount*CaseCount - RunCount,
     expected_cases(Study, Given, Expected),
-    findall(Points,
-            ( member(Seed, Seeds),
-              findall(Case-Ms, member(run(Case, Seed, Ms), Runs), OfSeed),
-              points(Expected, of_case(OfSeed), Points) ),
-            OfSeeds),
+    findall(Points, ( member(Seed, Seeds),
+                      seed_points(Expected, Runs, Seed, Points) ), OfSeeds),
     points(Expected, median(Rows, 1), Found),
     points(Expected, median(Rows, SeedCount), Medians),
     findall(Claim, claim(Study, Names, OfSeeds, Medians, Found, Claim), Claims),
     findall(Text-Comparisons, tested(Study, OfSeeds, Text, Comparisons), Tests).
+
+%!  seed_points(+Cases, +Runs, +Seed, -Points:list(pair)) is det.
+%
+%   Points are those of claim_verdict/3 for the runs with Seed.
+
+seed_points(Cases, Runs, Seed, Points) :-
+    findall(Case-Ms, member(run(Case, Seed, Ms), Runs), OfSeed),
+    points(Cases, of_case(OfSeed), Points).
 
 :- meta_predicate points(+, 2, -).
 

@@ -2,6 +2,7 @@
           [ plans/3,                    % +Studies, +Options, -Plans
             planned/4,                  % +Plans, +Options, -N, -Run
             planned_real/3,             % +Plans, +Options, -Run
+            real_way/3,                 % +Options, -Title, -Changes
             planned_seed/2,             % +Options, -Seed
             planned_case/4,             % +Plans, +Text, -Study, -Case
             out_directory/2,            % +Options, -Directory
@@ -12,7 +13,8 @@
 :- use_module(library(lists), [append/3, member/2, memberchk/2, nth1/3]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(cases, [case_name/3, study_cases/3]).
-:- use_module(cross_check, [real_case/4]).
+:- use_module(cross_check, [real_case/5]).
+:- use_module(machines, [machines/3]).
 
 /** <module> The runs that the options of a command select, and their
     directories
@@ -80,15 +82,32 @@ planned(Plans, Options, N, run(Study, Case, Seed)) :-
 
 %!  planned_real(+Plans, +Options, -Run) is nondet.
 %
-%   With --real, Run is a run to make on real sockets: one for each case by
-%   default, because real runs take long.
+%   Run is a run to make in a real_way/3: one for each case by default, because
+%   real runs take long.
 
 planned_real(Plans, Options, run(Study, Real, Seed)) :-
-    option(real(true), Options),
+    real_way(Options, _, Changes),
     option(real_runs(Runs), Options, 1),
     member(plan(Study, _, Cases), Plans),
-    real_case(Study, Cases, _, Real),
+    real_case(Study, Cases, Changes, _, Real),
     planned_seed([runs(Runs)|Options], Seed).
+
+%!  real_way(+Options, -Title, -Changes:list) is nondet.
+%
+%   A real case is run with Changes: with --real on sockets of this machine, and
+%   on --machines, with a process on each.
+
+real_way(Options, 'on sockets', Changes) :-
+    option(real(true), Options),
+    real_clock(Options, Changes).
+real_way(Options, 'on machines',
+         [processes=Count, on_machines=at(Here, Machines)|Changes]) :-
+    machines(Options, Here, Machines),
+    length(Machines, Count),
+    real_clock(Options, Changes).
+
+real_clock(Options, Changes) :-
+    findall(clock=Rate, option(real_clock(Rate), Options), Changes).
 
 %!  planned_seed(+Options, -Seed) is nondet.
 

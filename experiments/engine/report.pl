@@ -34,7 +34,7 @@
 %   Prints a line for each case: medians with the least and greatest run; and
 %   for each claim the number of runs in which it held, its values, and its rank
 %   tests. Outcome has two more keys: `given`, the values of --set, and
-%   `checks`, see cross_check/4.
+%   `checks`, tables of module `study_cross_check`.
 
 print_outcome(Stream, Study, Outcome) :-
     study_title(Study, Name, Title),
@@ -51,11 +51,9 @@ print_outcome(Stream, Study, Outcome) :-
            print_claim(Stream, Outcome, Claim)),
     print_checks(Stream, Outcome.checks).
 
-print_checks(_, []) :-
-    !.
-print_checks(Stream, Rows) :-
-    nl(Stream),
-    print_table(Stream, [measure, virtual, 'on sockets', verdict], Rows).
+print_checks(Stream, Tables) :-
+    forall(( member(table(Header, Rows), Tables), Rows \== [] ),
+           ( nl(Stream), print_table(Stream, Header, Rows) )).
 
 row_cells(Row, Names, Measures, Cells) :-
     Row = row(Case, Count, _),

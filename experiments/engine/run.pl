@@ -184,11 +184,16 @@ still_there(Pids, Network) :-
 
 study_network(Study, Case, Log, Network) :-
     must(Study, network(Case, Topology, Options0)),
-    append(Options0,
-           [ clock(Case.clock), processes(Case.processes), seed(Case.seed),
-             Log ],
+    findall(Option, on_machines(Case, Option), Options1),
+    append([ Options0, Options1,
+             [ clock(Case.clock), processes(Case.processes), seed(Case.seed),
+               Log ] ],
            Options),
     network_start(Topology, Network, Options).
+
+on_machines(Case, Option) :-
+    get_dict(on_machines, Case, at(Here, Machines)),
+    member(Option, [bind(Here), machines(Machines)]).
 
 study_run(Study, Case, Network) :-
     (   study_says(Study, run/2)

@@ -6,7 +6,7 @@
 :- use_module('../../lib/study_files',
               [study_messages/2, with_study/2, with_study/3]).
 :- use_module('../../../experiments/engine/cases', [study_cases/3]).
-:- use_module('../../../experiments/engine/cross_check', [cross_check/4]).
+:- use_module('../../../experiments/engine/cross_check', [claims_check/5, cross_check/4]).
 :- use_module('../../../experiments/engine/numbers').
 :- use_module('../../../experiments/engine/outcome').
 :- use_module('../../../experiments/engine/report').
@@ -235,11 +235,30 @@ test(real_run_beside_the_virtual_ones,
      [ forall(member(Real-Verdict, [ 1-inside, 3-inside, 2.5-inside,
                                      0.9-below, 3.1-above ])),
        Found == Verdict ]) :-
-    cross_check([ms{m:1, o:x}, ms{m:3}, ms{m:2}], [ms{m:Real}], [m, o],
-                [[m, _, _, Found]]).
+    cross_check([ms{m:1, o:x}, ms{m:3}, ms{m:2}], [real-[ms{m:Real}]], [m, o],
+                table([measure, virtual, real, verdict], [[m, _, _, Found]])).
 test(median_of_the_real_runs, Found == inside) :-
-    cross_check([ms{m:1}, ms{m:2}], [ms{m:2}, ms{m:9}, ms{m:0}], [m],
-                [[m, _, _, Found]]).
+    cross_check([ms{m:1}, ms{m:2}], [real-[ms{m:2}, ms{m:9}, ms{m:0}]], [m],
+                table(_, [[m, _, _, Found]])).
+test(several_ways, Row == [m, '1', '2', above, '', '', '1', inside]) :-
+    cross_check([ms{m:1}], [a-[ms{m:2}], b-[ms{}], c-[ms{m:1}]], [m],
+                table(_, [Row])).
+test(claims_with_the_measures_of_each_way,
+     Rows == [['"a above 2"', '1 of 2', '2 of 2'], ['"b below a"', '2 of 2', '1 of 2']]) :-
+    with_study([ 'study(toy, "Toy").',
+                 'vary(c, [a, b]).',
+                 'measure(m, _, 1).',
+                 'claim("a above 2", [], at([c=a], m > 2)).',
+                 'claim("b alone", [], at([c=b], m > 2)).',
+                 'claim("b below a", [], at([c=b], m < at([c=a], m))).' ],
+               Study,
+               claims_check(Study,
+                            [ 1-[case{c:a}-ms{m:2}, case{c:b}-ms{m:1}],
+                              2-[case{c:a}-ms{m:5}, case{c:b}-ms{m:4}] ],
+                            case{c:a},
+                            [ virtual-[1-ms{m:2}, 2-ms{m:5}],
+                              real-[1-ms{m:3}, 2-ms{m:4}] ],
+                            table([claim, virtual, real], Rows))).
 
 :- end_tests(cross_check).
 
