@@ -32,7 +32,9 @@ claims, plots and labels: these may change without repeating runs.
 
 :- dynamic
     project/1,
-    hashed/3.                   % Study, Hash, Times
+    all_common/1,               % Files: see common/1
+    hashed/3,                   % Study, Hash, Times
+    read_before/3.              % File, Time, Kept: what was kept of File
 
 :- prolog_load_context(directory, Engine),
    file_directory_name(Engine, Experiments),
@@ -77,8 +79,27 @@ plain(Term, Term).
 
 file_digest(File, Base, Digest) :-
     file_base_name(File, Base),
+    of_file(File, digest(Digest)).
+
+%   of_file(+File, ?What): studies share most files, so each is read once for
+%   its digest(_), and once for its terms(_), as long as it does not change.
+
+of_file(File, What) :-
+    time_file(File, Time),
+    functor(What, Kind, 1),
+    functor(Kept, Kind, 1),
+    (   read_before(File, Time, Kept)
+    ->  true
+    ;   read_now(Kept, File),
+        assertz(read_before(File, Time, Kept))
+    ),
+    What = Kept.
+
+read_now(digest(Digest), File) :-
     read_file_to_string(File, Text, [encoding(utf8)]),
     text_hash(Text, Digest).
+read_now(terms(Terms), File) :-
+    findall(Term, term_read(File, Term), Terms).
 
 %!  text_hash(+Text, -Hash:atom) is det.
 
@@ -109,7 +130,7 @@ sources(Study, Terms, Named, Files) :-
     findall(Term, ( member(File, Included), source_term(File, Term) ), All),
     of_run(All, Terms),
     findall(File, named_by(Study, Included, Terms, File), First),
-    findall(File, common(File), Common),
+    common_files(Common),
     append(First, Common, Begin),
     followed(Begin, [], Followed),
     sort(Followed, Named),
@@ -141,6 +162,13 @@ named_by(Study, _, _, File) :-
     compound(Declaration),
     functor(Declaration, Kind, _),
     memberchk(Kind, [agent, payload]).
+
+common_files(Files) :-
+    all_common(Files),
+    !.
+common_files(Files) :-
+    findall(File, common(File), Files),
+    assertz(all_common(Files)).
 
 common(File) :-
     member(Name, [prolog, 'agents/lib', payloads]),
@@ -216,6 +244,10 @@ names(Term, Spec) :-
                 *******************************/
 
 source_term(File, Term) :-
+    of_file(File, terms(Terms)),
+    member(Term, Terms).
+
+term_read(File, Term) :-
     setup_call_cleanup(
         prolog_open_source(File, In),
         ( set_stream(In, encoding(utf8)),
