@@ -388,6 +388,7 @@ drained(Name, Seconds, Options) :-
     ).
 
 bridge_named([python]).
+bridge_named([gpio]).
 bridge_named([mqtt]).
 bridge_named([mqtt,_]).
 bridge_named([ros]).

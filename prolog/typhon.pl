@@ -16,7 +16,7 @@ a folder, with an interface of the same name beside it:
   | fleets                          | typhon/options/fleet     |
   | tables at the top level, help/1 | typhon/tools/environment |
   | a page for a browser            | typhon/tools/page        |
-  | Python, MQTT, ROS, FIPA         | typhon/bridges           |
+  | Python, MQTT, ROS, FIPA, pins   | typhon/bridges           |
 */
 
 :- use_module(typhon/kernel/base/compiling,
@@ -66,7 +66,7 @@ a folder, with an interface of the same name beside it:
 :- reexport(typhon/bridges/common/starting,
             [ mqtt_start/3, mqtt_stop/1, python_start/3, python_stop/1,
               ros_start/3, ros_stop/1, ros_property/2, fipa_start/3,
-              fipa_stop/1 ]).
+              fipa_stop/1, gpio_start/3, gpio_stop/1 ]).
 :- use_module(typhon/kernel/vocabulary, []).
 :- use_module(typhon/options/migration, []).
 :- use_module(typhon/kernel/base/error_lines, []).

@@ -61,7 +61,7 @@ command(sign, 'PROGRAM', 1,
         'sign an agent program, for hosts that require authors').
 command(diagnose, '[ADDRESS]', 0-2,
         'diagnose why a host, or with nxt PORT a robot, is unreachable; or \c
-         why python, mqtt URL, fipa URL, ros or ros URL does not work').
+         why python, gpio, mqtt URL, fipa URL, ros or ros URL does not work').
 
 %!  footer(?Command, ?Line) is nondet.
 %

@@ -4,7 +4,7 @@
     python3 bridges/nxt/world.py bridges/nxt/scenes/pole.json --pty DIR
 
 When it is ready it prints a line that says where the bricks are; lines on
-standard input ask for the state and change the world. See doc/brick.md."""
+standard input ask for the state and change the world. See doc/robot-studies.md."""
 
 import argparse
 import json

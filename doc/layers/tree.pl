@@ -318,8 +318,8 @@ layers([ 'kernel/base', 'bridges/json',
          'options/cell', 'options/fleet', 'options/trace', 'options/virtual',
          network,
          'options/watch', 'options/supervision', 'options/directory', tools,
-         'bridges/common', 'bridges/python', 'bridges/mqtt', 'bridges/fipa',
-         'bridges/ros', 'tools/page' ]).
+         'bridges/common', 'bridges/python', 'bridges/mqtt', 'bridges/gpio',
+         'bridges/fipa', 'bridges/ros', 'tools/page' ]).
 
 %!  layer_module(?File, ?Layer, ?Name) is nondet.
 %!  interface(?File, ?Layer) is nondet.
@@ -366,7 +366,7 @@ face(File) :-
     member(Path, [ 'prolog/typhon.pl', 'prolog/typhon/kernel.pl',
                    'prolog/typhon/nxt.pl', 'prolog/typhon/python.pl',
                    'prolog/typhon/mqtt.pl', 'prolog/typhon/ros.pl',
-                   'prolog/typhon/fipa.pl' ]),
+                   'prolog/typhon/fipa.pl', 'prolog/typhon/gpio.pl' ]),
     inside(Path, File).
 
 is_layer(Layer) :-

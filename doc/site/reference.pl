@@ -30,6 +30,7 @@ so this module is loaded before any other that loads library(typhon).
                    [ nxt-['prolog/typhon/nxt'],
                      fipa-['prolog/typhon/fipa'],
                      bridges-['prolog/typhon/bridges/mqtt/service',
+                              'prolog/typhon/bridges/gpio/service',
                               'prolog/typhon/bridges/ros/service'],
                      studies-['agents/sync/operator',
                               'agents/population/operator',
@@ -78,6 +79,7 @@ task(agents, "Offer and find services", [typhon_directory_words]).
 task(agents, "Call agents by pheromones",
      [typhon_migration:[emit/1, emit/2, withdraw/1, pheromone/3]]).
 task(bridges, "Publish and subscribe by MQTT", [typhon_mqtt_service]).
+task(bridges, "Read and set the pins of a board", [typhon_gpio_service]).
 task(bridges, "Topics of ROS", [typhon_ros_service]).
 task(bridges, "Services, actions and parameters of ROS", [typhon_ros_requests]).
 task(library, "Start, change and stop hosts",
@@ -100,7 +102,7 @@ task(library, "Look into agents",
 task(library, "Watch a network", [typhon_watches, typhon_page]).
 task(library, "Save and restore agents",
      [typhon_administration:[agent_save/2, agent_load/2, agent_load/3]]).
-task(library, "Use Python, MQTT, ROS and FIPA", [typhon_starting]).
+task(library, "Use Python, MQTT, pins, ROS and FIPA", [typhon_starting]).
 task(mechanisms, "Synchronise hosts: agents/sync/operator", [sync_operator]).
 task(mechanisms, "Control a population: agents/population/operator",
      [population_operator]).
@@ -126,6 +128,10 @@ public(agents, Module:PI) :-
 public(bridges, typhon_mqtt_service:PI) :-
     installed(bridges),
     member(PI, [publish/2, publish/3, subscribe/1, subscribe/2, unsubscribe/1]).
+public(bridges, typhon_gpio_service:PI) :-
+    installed(bridges),
+    member(PI, [ pin/2, pins/1, pin_watch/1, pin_watch/2, pin_unwatch/1,
+                 pin_open/2, pin_close/1, pin_drive/2 ]).
 public(bridges, PI) :-
     exported(typhon_ros_service, PI).
 public(library, PI) :-

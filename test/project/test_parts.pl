@@ -62,6 +62,7 @@ product(Part) :-
 
 use(bridges, 'python_start(a,"x.py",[])', 'library(typhon/python)').
 use(bridges, 'mqtt_start(a,\'mqtt://localhost\',[])', 'library(typhon/mqtt)').
+use(bridges, 'gpio_start(a,[],[])', 'library(typhon/gpio)').
 use(bridges, 'ros_start(a,ros2,[])', 'library(typhon/ros)').
 use(fipa, 'fipa_start(a,\'http://localhost:0\',[])', 'library(typhon/fipa)').
 use(postgresql, 'host_start(b,[journal(\'postgresql://localhost\')])',

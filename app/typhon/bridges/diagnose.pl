@@ -21,7 +21,7 @@ advice at the step that fails.
 %!  diagnose_bridge(+Bridge, +Arguments:list) is semidet.
 %
 %   Prints the result of each step for the bridge `python`, without arguments;
-%   `mqtt`, optionally with the URL of a broker; or `ros`, optionally with the
+%   `gpio`; `mqtt`, optionally with the URL of a broker; or `ros`, optionally with the
 %   URL of a rosbridge server.  Fails at the first step that does not work, and
 %   for an unknown bridge.
 
@@ -49,6 +49,13 @@ step(mqtt, broker,
       mqtt://localhost:1883.').
 step(mqtt, 'round trip',
      'The broker must let you publish and subscribe to typhon/diagnosed.').
+step(gpio, python,
+     'Install python3, or set typhon_helper_process:python.').
+step(gpio, gpiozero,
+     'apt install python3-gpiozero, or pip install gpiozero.').
+step(gpio, pins,
+     'Is this a board, has it python3-lgpio, and is the user in the group \c
+      gpio? GPIOZERO_PIN_FACTORY=mock simulates one.').
 step(ros, python,
      'make tools-ros installs it from PyPI; a rosbridge server, \c
       diagnose ros URL, does not need it.').
@@ -71,6 +78,13 @@ check(_, python, Found) :-
                 python3, Found).
 check(_, paho, Found) :-
     python_says('import paho.mqtt as p; print(p.__version__)', paho, Found).
+check(_, gpiozero, Found) :-
+    python_says('import importlib.metadata as m; print(m.version("gpiozero"))',
+                gpiozero, Found).
+check(_, pins, Found) :-
+    python_says('import warnings, gpiozero; warnings.simplefilter("ignore"); \c
+                 print(type(gpiozero.Device._default_pin_factory()).__name__)',
+                pins, Found).
 check(python-_, function, Found) :-
     helper_file('python/hello.py', File),
     python_start(diagnosed, File, []),

@@ -37,6 +37,8 @@ takes(H, Goal) :-
              bridges-python_stop(H),
              bridges-mqtt_start(H, 'mqtt://localhost:1', [wait(false)]),
              bridges-mqtt_stop(H),
+             bridges-gpio_start(H, [a=output(99)], [factory(mock)]),
+             bridges-gpio_stop(H),
              bridges-ros_start(H, 'ws://localhost:1', []),
              bridges-ros_stop(H), bridges-ros_property(H, _) ]),
     installed(Part).
@@ -65,6 +67,9 @@ ends_with(python_start, existence_error(source_sink, _)).
 ends_with(python_stop, existence_error(python, _)).
 ends_with(mqtt_start, existence_error(python_module, paho)).
 ends_with(mqtt_stop, existence_error(mqtt, _)).
+ends_with(gpio_start, existence_error(python_module, gpiozero)).
+ends_with(gpio_start, existence_error(gpio_pin, 99)).
+ends_with(gpio_stop, existence_error(gpio, _)).
 ends_with(ros_start, socket_error(_, _)).
 ends_with(ros_stop, existence_error(ros, _)).
 ends_with(host_stop, existence_error(host, _)).

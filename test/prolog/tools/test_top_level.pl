@@ -110,6 +110,7 @@ test(goals_run_in_the_module_of_the_caller,
 
 public_library(typhon, core).
 public_library(typhon/fipa, fipa).
+public_library(typhon/gpio, bridges).
 public_library(typhon/mqtt, bridges).
 public_library(typhon/nxt, nxt).
 public_library(typhon/python, bridges).

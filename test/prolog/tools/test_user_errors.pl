@@ -54,6 +54,9 @@ valid(fleet_leave(lab), ['Fleet']).
 valid(fleet_parked(lab, _), ['Fleet']).
 valid(fleet_unwatch(none), ['Watch']).
 valid(fleet_watch(lab, [_]>>true, _), ['Fleet', 'OnChange']).
+valid(gpio_start(alpha, [a=output(1)], [python('/no/such')]),
+      ['Host', 'Pins', 'Options']).
+valid(gpio_stop(nowhere), ['Host']).
 valid(host_change(alpha, capacity(3)), ['Host', 'Option']).
 valid(host_property(alpha, state(_)), []).
 valid(host_start(alpha), ['Name']).

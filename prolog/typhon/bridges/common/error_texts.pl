@@ -15,6 +15,7 @@ prolog:error_message(existence_error(Bridge, Host)) -->
     [ '~w has no ~w (start it by ~w_start/3)'-[Host, Name, Bridge] ].
 
 bridge(fipa, 'FIPA').
+bridge(gpio, 'GPIO').
 bridge(mqtt, 'MQTT').
 bridge(ros, 'ROS').
 
@@ -47,6 +48,25 @@ problem(unreachable, 'the broker cannot be reached').
 problem(refused, 'the broker refuses the connection').
 problem(tls, 'TLS cannot be used').
 problem(failed, 'the client library raises an exception').
+
+prolog:error_message(gpio_error(Problem, Host)) -->
+    { gpio_problem(Problem, Text) },
+    [ 'GPIO on ~w: ~w'-[Host, Text] ].
+prolog:error_message(existence_error(gpio_pin, Number)) -->
+    [ 'The board has no pin ~w'-[Number] ].
+prolog:error_message(existence_error(pin, Name)) -->
+    [ 'This host has no pin ~w (pins/1 lists them)'-[Name] ].
+prolog:error_message(existence_error(pin_watch, Name)) -->
+    [ 'This agent does not watch the pin ~w'-[Name] ].
+prolog:error_message(existence_error(python_module, gpiozero)) -->
+    [ 'This Python has no gpiozero (install it: apt install \c
+       python3-gpiozero, or pip install gpiozero)' ].
+prolog:error_message(timeout_error(gpio(Name), Host)) -->
+    [ 'GPIO on ~w: the pin ~w has not answered in time'-[Host, Name] ].
+
+gpio_problem(no_pins, 'this machine has no pins that gpiozero finds').
+gpio_problem(silent, 'the thermometer does not answer').
+gpio_problem(failed, 'gpiozero raises an exception').
 
 prolog:error_message(existence_error(ros_type, Type)) -->
     [ 'There is no type ~w among those that are installed'-[Type] ].

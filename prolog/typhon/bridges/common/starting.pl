@@ -8,6 +8,8 @@
             ros_property/2,             % ?Host, ?Property
             fipa_start/3,               % +Host, +URL, +Options
             fipa_stop/1,                % +Host
+            gpio_start/3,               % +Host, +Pins, +Options
+            gpio_stop/1,                % +Host
             service/2,                  % ?Service, ?Host
             service_begin/5,            % +Service, +Host, +PIs, +Module, :Open
             service_offer/4             % +Name, +Host, +PIs, +Clauses
@@ -242,6 +244,52 @@ fipa_start(Host, Url, Options) :-
 
 fipa_stop(Host) :-
     stop(fipa, Host).
+
+%!  gpio_start(+Host, +Pins:list, +Options) is det.
+%
+%   Make pins of the board services of the place of Host, see doc/boards.md.  Pins
+%   are Name=Kind(Number) or Name=Kind(Number, Options), where Name is an atom, and
+%   Number an integer, the GPIO number, or a name of gpiozero such as 'BOARD11':
+%
+%     - output(Number, Options): options initial(0 or 1), default 0, and
+%       active(Level): which level is 1, `high`, default, or `low`
+%     - input(Number, Options): options active(Level), pull(Pull), which is
+%       `none`, default, `up` or `down`, and debounce(Seconds): a value counts
+%       when it has not changed for so long, default 0
+%     - pwm(Number, Options): options initial(Part), active(Level),
+%       frequency(Hz), default 100
+%     - thermometer(Name): a DS18B20 on the 1-Wire line, as '28-00000a1b2c3d'
+%
+%   Options:
+%
+%     - factory(Name): of gpiozero: `lgpio`, `rpigpio`, `pigpio`, `native`, or
+%       `mock`, a simulated Raspberry Pi; default is what gpiozero finds
+%     - w1(Folder): of the 1-Wire devices, default /sys/bus/w1/devices
+%     - open(Boolean): whether agents may use other pins, by pin_open/2; default
+%       `false`
+%     - queue(N): edges that may wait for an agent, default 1000
+%     - timeout(Seconds): of each request, default 10
+%     - python(Program): default see helper_python/2
+%
+%   @error permission_error(start, gpio, Host) if pins are on Host already
+%   @error existence_error(gpio_pin, Number): the board has no such pin;
+%   permission_error(use, gpio_pin, Number): it is in use;
+%   permission_error(open, pin, Name): two pins have this name
+%   @error gpio_error(no_pins, Host): this machine has no pins
+%   @error existence_error(python_module, gpiozero)
+%   @error domain_error(pin, Pin), domain_error(gpio_option, Option)
+
+gpio_start(Host, Pins, Options) :-
+    start(gpio, Host, Pins, Options).
+
+%!  gpio_stop(+Host) is det.
+%
+%   Release the pins, which become inputs.  The same happens when the host stops.
+%
+%   @error existence_error(gpio, Host)
+
+gpio_stop(Host) :-
+    stop(gpio, Host).
 
 %   Payloads of Python code need an option of the host.
 
