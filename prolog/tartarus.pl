@@ -18,7 +18,8 @@ agent is neither lost nor duplicated.
   | agents: creating, running, ending      | tartarus/agents   |
   | moves between platforms, their times   | tartarus/moves    |
   | messages, log servers                  | tartarus/messages |
-  | speech, Python, robots, pins           | tartarus/devices  |
+  | speech, Python, robots                 | tartarus/devices  |
+  | pins of a Raspberry Pi                 | tartarus/pins     |
 
 Local definitions take precedence: programs may define predicates of these
 names.
@@ -47,6 +48,7 @@ names.
 :- reexport(tartarus/lives,
             [load_tartarus_state/1, save_agent/2, save_tartarus_state/1]).
 :- reexport(tartarus/devices).
+:- reexport(tartarus/pins).
 
 %   The names before 2019.
 

@@ -1,8 +1,7 @@
 :- module(tartarus_devices,
           [ tts/1, tts_on/0, tts_off/0, subt_on/0, subt_off/0,
             python_call/3, python_call/4,
-            pinMode/2, digitalWrite/2, digitalRead/2, pwmWrite/2,
-            ledOn/2, ledOff/2, servo/4, mpu6050/2,
+            mpu6050/2,
             create_billboard/5, write2billboard/4, create_dlg/3,
             attach_console/0
           ]).
@@ -10,10 +9,10 @@
 :- reexport('../typhon/bridges/nxt/swi_pro_nxt').
 :- use_module(platform, [print_lines/2]).
 
-/** <module> Speech, Python, robots, pins
+/** <module> Speech, Python, robots
 
 The predicates whose names end in `_nxt` drive robots; library(typhon/nxt)
-defines them.  This library does not support pins of a Raspberry Pi and windows
+defines them.  This library does not support I2C of a Raspberry Pi and windows
 of XPCE: their predicates raise errors that name a replacement.
 
 *Threading*: any thread.
@@ -105,13 +104,6 @@ in_python(Goal) :-
    retractall(bridge(_)),
    assertz(bridge(File)).
 
-%!  pinMode(+Pin, +Mode).
-%!  digitalWrite(+Pin, +Value).
-%!  digitalRead(+Pin, -Value).
-%!  pwmWrite(+Pin, +Value).
-%!  ledOn(+Pin, -Result).
-%!  ledOff(+Pin, -Result).
-%!  servo(+Pin, +Frequency, +Duty, -Result).
 %!  mpu6050(+Kind, -Result).
 %!  create_billboard(+Name, +X, +Y, +Width, +Height).
 %!  write2billboard(+Name, +Text, +X, +Y).
@@ -120,14 +112,7 @@ in_python(Goal) :-
 %
 %   @error existence_error(tartarus_device, What)
 
-pinMode(_, _) :- missing(pins).
-digitalWrite(_, _) :- missing(pins).
-digitalRead(_, _) :- missing(pins).
-pwmWrite(_, _) :- missing(pins).
-ledOn(_, _) :- missing(pins).
-ledOff(_, _) :- missing(pins).
-servo(_, _, _, _) :- missing(pins).
-mpu6050(_, _) :- missing(pins).
+mpu6050(_, _) :- missing('I2C').
 create_billboard(_, _, _, _, _) :- missing(windows).
 write2billboard(_, _, _, _) :- missing(windows).
 create_dlg(_, _, _) :- missing(windows).
@@ -140,9 +125,9 @@ missing(What) :-
 
 prolog:error_message(existence_error(tartarus_device, What)) -->
     { advice(What, Advice) },
-    [ 'Tartarus: ~w are not reached from here: ~w'-[What, Advice] ].
+    [ 'Tartarus: ~w is not reached from here: ~w'-[What, Advice] ].
 
-advice(pins, 'give the platform predicates of these names, as by \c
-              host_change(tartarus, services(Module)), which drive them').
+advice('I2C', 'read the sensor by python_call/4, or give the platform such a \c
+               predicate').
 advice(windows, 'print with format/2, or look at the page of the network').
 advice(consoles, 'handlers read the terminal of their platform').
