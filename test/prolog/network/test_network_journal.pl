@@ -486,6 +486,23 @@ test(deaths_are_counted_across_threads_and_a_process_is_given_up,
             printed(node_given_up(N, P, M, S)), Told),
     findall(E, printed(server_ended(E)), Ended).
 
+%   Other processes would wait for a minute for one that is started again.
+
+test(processes_do_not_wait_for_one_that_is_given_up, true(nonvar(Formal))) :-
+    with_settings([typhon_restarts:restarts=0],
+        quiet(with_network(ring(2), [processes(2), restart(true)], Network, [A,B],
+            ( pids(Network, [Pid|_]),
+              process_kill(Pid, kill),
+              wait_until(printed(node_given_up(_, _, _, _)), 10),
+              agent_create(clauses([ (:- agent(visits, [state([to/1])])),
+                                     to(A),
+                                     (main :- to(H),
+                                              catch(( move(H), E = none ),
+                                                    error(E, _), true),
+                                              result(E)) ]),
+                           Agent, [host(B)]),
+              agent_result(Agent, Formal, 20) )))).
+
 %   wakes(-Threads): the threads that restart processes of networks.
 
 wakes(Threads) :-
