@@ -174,6 +174,7 @@ elsewhere("pack_install").              % test_pack installs the pack
 elsewhere("swipl pack install").
 elsewhere("apt install").
 elsewhere("systemctl").
+elsewhere("app/machines.py").             % test_several_machines runs it
 
                 /*******************************
                 *     NAMES OF THIS MACHINE    *

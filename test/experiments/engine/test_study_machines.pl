@@ -11,6 +11,7 @@
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2, subtract/3]).
 :- use_module(library(plunit)).
+:- use_module(library(readutil), [read_file_to_string/3]).
 
 study([ 'study(toy, "A toy").',
         'fixed(hosts, 5, assumed("so")).',
@@ -38,16 +39,18 @@ words(Text, Words) :-
     subtract(Words0, [""], Words).
 
 %   A program python3 in front of the other ends as app/machines.py does where
-%   machines are not permitted.
+%   machines are not permitted; Asked are its arguments.
 
-without_machines(Text, Dir) :-
+without_machines(Text, Asked, Dir) :-
     directory_file_path(Dir, python3, Python),
-    shell_script(Python, "exit 69"),
+    shell_script(Python, "echo \"$@\" > $0.asked; exit 69"),
     getenv('PATH', Path0),
     atomic_list_concat([Dir, Path0], :, Path),
     setup_call_cleanup(setenv('PATH', Path),
                        on_machines(3, exit(0), Text),
-                       setenv('PATH', Path0)).
+                       setenv('PATH', Path0)),
+    atom_concat(Python, '.asked', File),
+    read_file_to_string(File, Asked, []).
 
 :- begin_tests(machines, [condition(machines_permitted)]).
 
@@ -62,8 +65,11 @@ test(run_on_three_machines, nondet) :-
 
 :- begin_tests(no_machines).
 
+test(delays_and_losses_grow_with_the_number, nondet) :-
+    with_tmp_dir(without_machines(_, Asked)),
+    sub_string(Asked, _, _, _, "--delay 0.5,1.0,1.5 --loss 0.1,0.2,0.3 3 ").
 test(study_goes_on_without_them, nondet) :-
-    with_tmp_dir(without_machines(Text)),
+    with_tmp_dir(without_machines(Text, _)),
     words(Text, ["Warning:", "--machines:"|_]),
     words(Text, ["1", "5", "1"]).
 test(machines_of_others_need_an_address, nondet) :-

@@ -68,13 +68,12 @@ test(hosts_with_different_cookies,
                         Said))) :-
     shared(one, other, Said).
 test(packets_take_the_delays_of_both_ends) :-
-    beside(['--delay', '0,150', 2],
-           [ sh, '-c', 'date +%s%N; ssh 10.213.78.1 true; date +%s%N; \c
-                        ssh 10.213.78.2 true; date +%s%N' ], _, Out,
-           findall(T, ( between(1, 3, _), read_line_to_string(Out, Line),
-                        number_string(T, Line) ), [T1, T2, T3])),
+    beside(['--delay', '0,400', 2],
+           [ sh, '-c', 'date +%s%N; ssh 10.213.78.2 true; date +%s%N' ], _, Out,
+           findall(T, ( between(1, 2, _), read_line_to_string(Out, Line),
+                        number_string(T, Line) ), [T1, T2])),
     % at least four round trips
-    assertion(T3 - T2 - (T2 - T1) > 1 000 000 000).
+    assertion(T2 - T1 > 3 200 000 000).
 test(machines_have_names_of_their_own,
      Names == ["here", "machine1", "machine2"]) :-
     beside([2], [ sh, '-c', 'hostname; for n in 1 2; do \c
@@ -112,6 +111,16 @@ test(nothing_is_left_when_the_caller_is_killed) :-
 
 :- begin_tests(no_machines).
 
+test(each_end_loses_its_share) :-
+    python(Python),
+    project_file(app, App),
+    process_create(Python,
+                   [ '-Bc', 'import random, sys; sys.path.append(sys.argv[1]); \c
+from machines import Machine, arrives; random.seed(1); \c
+ends = [Machine("", 0, 0, loss) for loss in (.1, .2)]; \c
+sys.exit(not 7000 < sum(arrives(*ends) for _ in range(10000)) < 7400)', App ],
+                   [process(Pid)]),
+    wait_for_end(Pid, 60, exit(0)).
 test(message_says_what_to_do, nondet) :-
     python(Python),
     project_file('app/machines.py', Program),
