@@ -56,8 +56,7 @@ beside_machines(Options, Status) :-
     current_prolog_flag(executable, Swipl),
     append([Program, '--delay', Delays, '--loss', Losses, Count, Swipl], Argv,
            Args),
-    with_this_prolog(Swipl, Path),
-    ends(path(python3), Args, Path, Status),
+    ends(path(python3), Args, Status),
     (   Status =:= 69
     ->  print_message(warning, study_machines(none)),
         fail
@@ -72,17 +71,9 @@ lasting(Count, Divisor, Text) :-
     findall(Value, ( between(1, Count, N), Value is N/float(Divisor) ), Values),
     atomic_list_concat(Values, ',', Text).
 
-%   The machines call it by the name swipl.
-
-with_this_prolog(Swipl, Path) :-
-    file_directory_name(Swipl, Bin),
-    getenv('PATH', Path0),
-    atomic_list_concat([Bin, Path0], :, Path).
-
-ends(Program, Args, Path, Status) :-
+ends(Program, Args, Status) :-
     setup_call_cleanup(
-        process_create(Program, Args,
-                       [process(Pid), environment(['PATH'=Path])]),
+        process_create(Program, Args, [process(Pid)]),
         process_wait(Pid, Ended),
         ( var(Ended) -> process_kill(Pid, term), process_wait(Pid, _) ; true )),
     (   Ended = exit(Status)

@@ -25,11 +25,9 @@ beside(Options, Command, Pid, Out, Goal) :-
     python(Python),
     project_file('app/machines.py', Program),
     append([Program|Options], Command, Args),
-    own_path(Path),
     setup_call_cleanup(
         process_create(Python, Args,
-                       [ stdin(null), stdout(pipe(Out)), process(Pid),
-                         environment(['PATH'=Path]) ]),
+                       [ stdin(null), stdout(pipe(Out)), process(Pid) ]),
         once(Goal),
         ( close(Out),
           catch(end(Pid), error(_, _), true) )).
@@ -42,14 +40,6 @@ end(Pid) :-
     process_kill(Pid, kill),
     process_wait(Pid, _).
 end(_).
-
-%   On the machines swipl is the program of this process.
-
-own_path(Path) :-
-    current_prolog_flag(executable, Swipl),
-    file_directory_name(Swipl, Bin),
-    getenv('PATH', Path0),
-    atomic_list_concat([Bin, Path0], :, Path).
 
 %!  machines_permitted is semidet.
 %

@@ -42,11 +42,12 @@ shared(Cookie, Other, Said) :-
                 *            LEFT              *
                 *******************************/
 
-%   processes_below(+Pid, -Pids): its children, and theirs.
+%   processes_below(+Pid, -Pids): its children, and theirs. Some end meanwhile:
+%   daemons have one for each connection.
 
 processes_below(Pid, [Pid|Pids]) :-
     format(atom(File), '/proc/~w/task/~w/children', [Pid, Pid]),
-    read_file_to_string(File, Text, []),
+    catch(read_file_to_string(File, Text, []), error(_, _), Text = ""),
     split_string(Text, " ", " ", Words),
     findall(Below, ( member(Word, Words), number_string(Child, Word),
                      processes_below(Child, Some), member(Below, Some) ),
