@@ -30,7 +30,7 @@ CHECKS = list_undefined, list_trivial_fails, list_format_errors, \
     list_redefined, list_void_declarations
 
 .PHONY: help tools tools-peers tools-all tools-ros demo demo-robots demo-ros \
-    demo-page page-tools playground thesis thesis-real test test-quick stability \
+    demo-page page-tools playground thesis beyond thesis-real test test-quick stability \
     chaos scripted fuzz fuzz-programs hostile mutants check check-all \
     doc pictures vscode release bench bench-peers profile \
     test-portability install clean
@@ -70,6 +70,11 @@ thesis: tools page-tools ## every figure of the thesis anew; RUNS=10, JOBS=2
 	$(call NEEDS,experiments)
 	@$(SWIPL) experiments/study.pl -- thesis --runs $(RUNS) \
 	    --jobs $(JOBS) --replays --out out/thesis
+
+beyond: tools page-tools ## the studies beyond the thesis; RUNS=10, JOBS=2
+	$(call NEEDS,experiments)
+	@$(SWIPL) experiments/study.pl -- beyond --runs $(RUNS) \
+	    --jobs $(JOBS) --replays --out out/beyond
 
 thesis-real: tools      ## one case of each chapter, over sockets as well
 	$(call NEEDS,experiments)

@@ -11,11 +11,13 @@
 :- use_module(engine/catalogue, [catalogue/1, studies_named/2]).
 :- use_module('../app/typhon/engine_options', [engine_options/3]).
 :- use_module(engine/commands, [run_command/5]).
+:- use_module(engine/estimate, [longest_first/2]).
 :- use_module(engine/figures, [figures/3]).
 :- use_module(engine/machines, [beside_machines/2]).
 :- use_module(engine/plan,
               [ planned/4, planned_case/4, planned_real/3, plans/3,
                 real_way/3, runs_directory/2 ]).
+:- use_module(engine/replays, [replay_runs/3]).
 :- use_module(engine/report, [parameter_rows/3, print_table/3]).
 :- use_module(engine/signals, [stopping_on_signals/1]).
 :- use_module(engine/store, [run_result/3]).
@@ -27,7 +29,7 @@
 :- use_module(engine/worker, [run_here/4]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists), [member/2, selectchk/3]).
+:- use_module(library(lists), [append/3, member/2, selectchk/3]).
 :- use_module(library(main), [main/0]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(readutil), [read_file_to_string/3]).
@@ -66,8 +68,8 @@ opt_help(help(usage),
 " -- STUDY ... [options]
 
 A STUDY is a file, a figure of the thesis such as 5.6, a folder of experiments/,
-or `thesis`: all figures. Without a STUDY, the studies are listed. Finished runs
-are kept, and not repeated.").
+`thesis`: all figures and tables, or `beyond`: the studies beyond it. Without a
+STUDY, the studies are listed. Finished runs are kept, and not repeated.").
 opt_help(runs,    "Runs of each case, with consecutive seeds [3]").
 opt_help(seed,    "The first seed [1]").
 opt_help(jobs,    "Runs at the same time [2]").
@@ -182,9 +184,11 @@ perform(_, Options) :-
     !,
     halt(Status).
 perform(Plans, Options) :-
-    findall(Run, planned(Plans, Options, _, Run), Runs),
+    findall(Run, planned(Plans, Options, _, Run), Runs0),
+    longest_first(Runs0, Runs),
     runs_directory(Options, Root),
-    make(Runs, Root, Options, Failed),
+    replay_runs(Plans, Options, Replays),
+    make(Runs, Replays, Root, Options, Failed),
     make_real(Plans, Root, Options, RealFailed),
     figures(Plans, Options, Missing),
     halt_unless_none(Failed + Missing + RealFailed).
@@ -196,11 +200,16 @@ live_page(Study, Port) :-
     flush_output,
     thread_get_message(stop).           % only a signal ends this
 
-make(Runs, Root, Options, Failed) :-
+%   Logs for replays are large, so a fleet does not share them.
+
+make(Runs, Replays, Root, Options, Failed) :-
     engine_options(study, Options, Engine),
     (   option(fleet(Fleet), Options)
-    ->  fleet_runs(Fleet-Engine, Runs, Root, Options, Failed)
-    ;   runs_make(Runs, Root, Options, Failed)
+    ->  fleet_runs(Fleet-Engine, Runs, Root, Options, Failed0),
+        runs_make(Replays, Root, Options, Failed1),
+        Failed is Failed0 + Failed1
+    ;   append(Replays, Runs, All),
+        runs_make(All, Root, Options, Failed)
     ).
 
 halt_unless_none(Count) :-

@@ -2,7 +2,7 @@
           [ catalogue/1,                % -Rows
             studies_named/2             % +Names, -Files
           ]).
-:- use_module(library(apply), [convlist/3, include/3, maplist/3]).
+:- use_module(library(apply), [convlist/3, maplist/3]).
 :- use_module(library(error), [existence_error/2]).
 :- use_module(library(filesex), [directory_member/3]).
 :- use_module(library(lists),
@@ -80,7 +80,8 @@ number_or_text(Part, Key) :-
 %!  studies_named(+Names:list(atom), -Files:list(atom)) is det.
 %
 %   A name is the name of a file, of a study or of one of its plots, a folder
-%   below `experiments`, or `thesis`: its figures, and the studies beyond it.
+%   below `experiments`, `thesis`: its figures and tables, or `beyond`: the
+%   studies beyond it.
 %
 %   @error existence_error(study, Name)
 
@@ -93,10 +94,11 @@ named(Name, [File]) :-
     absolute_file_name(Name, File,
                        [ file_type(prolog), access(read), file_errors(fail) ]),
     !.
-named(thesis, Files) :-
+named(Name, Files) :-
+    kinds(Name, Kinds),
     !,
     study_files(All),
-    include([File]>>begins(File, [figure_, table_, beyond_]), All, Files0),
+    findall(File, ( member(File, All), begins(File, Kinds) ), Files0),
     in_order(Files0, Files).
 named(Name, Files) :-
     study_files(All),
@@ -110,6 +112,9 @@ named(Name, Files) :-
     in_order(Files0, Files).
 named(Name, _) :-
     existence_error(study, Name).
+
+kinds(thesis, [figure_, table_]).
+kinds(beyond, [beyond_]).
 
 :- multifile
     prolog:error_message//1.

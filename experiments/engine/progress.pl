@@ -1,5 +1,5 @@
 :- module(study_progress,
-          [ progress/4,                 % +Stream, +Done, +Total, +Note
+          [ progress/3,                 % +Stream, +Share, +Text
             progress_done/1             % +Stream
           ]).
 
@@ -14,33 +14,31 @@ server) one plain line for each tenth of the work.
 :- dynamic
     shown/2.                    % Stream, Tenth or line last shown
 
-%!  progress(+Stream, +Done, +Total, +Note) is det.
+%!  progress(+Stream, +Share, +Text) is det.
 %
-%   Shows that Done of Total items are done.  Note is text that follows the
-%   numbers.
+%   Shows that Share of the work, from 0 to 1, is done, and Text.
 
-progress(Stream, Done, Total, Note) :-
-    Tenth is 10*Done // max(1, Total),
+progress(Stream, Share, Text) :-
     (   stream_property(Stream, tty(true))
-    ->  bar(Done, Total, Bar),
-        format(atom(Line), '~a ~d/~d ~w', [Bar, Done, Total, Note]),
+    ->  bar(Share, Bar),
+        format(atom(Line), '~a ~w', [Bar, Text]),
         changed(Stream, Line),
         format(Stream, '\r\e[K~a', [Line])
-    ;   changed(Stream, Tenth),
-        format(Stream, '~d/~d ~w~n', [Done, Total, Note])
+    ;   Tenth is truncate(10*Share),
+        changed(Stream, Tenth),
+        format(Stream, '~w~n', [Text])
     ),
     !,
     flush_output(Stream).
-progress(_, _, _, _).           % nothing new to show
+progress(_, _, _).              % nothing new to show
 
 changed(Stream, State) :-
     \+ shown(Stream, State),
     retractall(shown(Stream, _)),
     assertz(shown(Stream, State)).
 
-bar(Done, Total, Bar) :-
-    Full is 30*Done // max(1, Total),
-    Edge is Full + 1,
+bar(Share, Bar) :-
+    Edge is truncate(30*Share) + 1,
     format(atom(Bar), '[~`=t~*|~` t~31|]', [Edge]).
 
 %!  progress_done(+Stream) is det.

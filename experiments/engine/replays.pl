@@ -1,16 +1,17 @@
 :- module(study_replays,
-          [ replays_save/3              % +Plans, +Options, +Out
+          [ replay_runs/3,              % +Plans, +Options, -Runs
+            replays_save/3              % +Plans, +Options, +Out
           ]).
-:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(option), [option/2]).
 :- use_module('../../prolog/typhon/tools/page', [page_export/3]).
-:- use_module(plan, [planned_seed/2]).
-:- use_module(run, [run_again/4]).
-:- use_module(studies, [study_title/3]).
+:- use_module(plan, [planned_seed/2, runs_directory/2]).
+:- use_module(store, [log_file/2, run_directory/3]).
+:- use_module(studies, [study_says/2, study_title/3]).
 
 /** <module> Replays of runs
 
-The run is repeated for its replay, because other logs have no hops.
+A run is repeated for its replay, because other logs have no hops.
 
 *Threading*: the main thread.
 */
@@ -18,41 +19,46 @@ The run is repeated for its replay, because other logs have no hops.
 :- multifile
     prolog:message//1.
 
+%!  replay_runs(+Plans, +Options, -Runs) is det.
 %!  replays_save(+Plans, +Options, +Out) is det.
 %
-%   With replays(true) in Options, writes replay.html into the directory of the
-%   first study of each folder with a network: its first case, with the first
-%   seed.  Failures are reported.
+%   With replays(true) in Options, Runs are the runs to repeat: of the first study
+%   of each folder with a network, its first case with the first seed.  Those that
+%   were made are written as replay.html into the directory of the study.
 
-replays_save(Plans, Options, Out) :-
+replay_runs(Plans, Options, Runs) :-
     (   option(replays(true), Options),
         once(planned_seed(Options, Seed))
-    ->  replays_of(Plans, [], Seed, Out)
-    ;   true
+    ->  first_of_folders(Plans, [], Seed, Runs)
+    ;   Runs = []
     ).
 
-replays_of([], _, _, _).
-replays_of([plan(Study, _, [Case|_])|Plans], Done, Seed, Out) :-
+first_of_folders([], _, _, []).
+first_of_folders([plan(Study, _, [Case|_])|Plans], Done, Seed, Runs) :-
     file_directory_name(Study, Folder),
     \+ memberchk(Folder, Done),
-    study_title(Study, Name, Title),
-    directory_file_path(Out, Name, Directory),
-    catch(replay_save(Study, Case, Seed, Title, Directory),
-          error(Formal, Context),
-          ( print_message(warning,
-                          study_replay(Name, error(Formal, Context))),
-            fail )),
+    study_says(Study, network/3),
     !,
-    replays_of(Plans, [Folder|Done], Seed, Out).
-replays_of([_|Plans], Done, Seed, Out) :-
-    replays_of(Plans, Done, Seed, Out).
+    Runs = [run(Study, Case, replay(Seed))|More],
+    first_of_folders(Plans, [Folder|Done], Seed, More).
+first_of_folders([_|Plans], Done, Seed, Runs) :-
+    first_of_folders(Plans, Done, Seed, Runs).
 
-replay_save(Study, Case, Seed, Title, Directory) :-
-    directory_file_path(Directory, 'replay.log', Log),
-    directory_file_path(Directory, 'replay.html', Page),
-    run_again(Study, Case, Seed, Log),
-    page_export(Log, Page, [title(Title), overlays([Study])]),
-    delete_file(Log).
+replays_save(Plans, Options, Out) :-
+    replay_runs(Plans, Options, Runs),
+    runs_directory(Options, Root),
+    forall(( member(Run, Runs),
+             run_directory(Root, Run, Directory),
+             log_file(Directory, Log),
+             exists_file(Log) ),
+           replay_save(Run, Log, Out)).
+
+replay_save(run(Study, _, _), Log, Out) :-
+    study_title(Study, Name, Title),
+    atomic_list_concat([Out, Name, 'replay.html'], /, Page),
+    catch(page_export(Log, Page, [title(Title), overlays([Study])]),
+          error(Formal, Context),
+          print_message(warning, study_replay(Name, error(Formal, Context)))).
 
                 /*******************************
                 *           MESSAGES           *

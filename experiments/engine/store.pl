@@ -24,7 +24,8 @@
 
 /** <module> The store of runs
 
-A run is a term run(Study, Case, Seed).  Its directory is below Root/STUDY; the
+A run is a term run(Study, Case, Seed); with replay(Seed) it is that run again,
+with a log of all events instead of measures.  Its directory is below Root/STUDY; the
 name has the case and the seed, a hash of all parameters and one of all sources.
 So runs of other sources are not found, and never mixed in.
 
@@ -66,9 +67,10 @@ file_text(Name, Text) :-
 run_done(Root, Logs, Run) :-
     run_directory(Root, Run, Directory),
     exists_directory(Directory),
-    \+ ( Logs == true, lacks_log(Directory) ).
+    \+ ( Logs == true, lacks_log(Run, Directory) ).
 
-lacks_log(Directory) :-
+lacks_log(run(_, _, Seed), Directory) :-
+    integer(Seed),
     run_facts(Directory, Facts),
     memberchk(events(_), Facts),
     log_file(Directory, File),

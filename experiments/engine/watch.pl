@@ -5,7 +5,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module('../../prolog/typhon/kernel/base/monotonic', [wait_within/2]).
 :- use_module(follow, [new_lines/4]).
-:- use_module(progress, [progress/4, progress_done/1]).
+:- use_module(progress, [progress/3, progress_done/1]).
 
 /** <module> Progress of a run
 
@@ -34,7 +34,9 @@ count_events(Log, What, Total, Position0, Count0) :-
     aggregate_all(count, ( member(Line, Lines), is_event(Line, What) ), New),
     Count is Count0 + New,
     Shown is min(Count, Total),
-    progress(user_error, Shown, Total, events),
+    Share is Shown/max(1, Total),
+    format(atom(Text), '~d/~d events', [Shown, Total]),
+    progress(user_error, Share, Text),
     thread_self(Me),
     (   wait_within(0.2, thread_get_message(Me, stop))
     ->  true

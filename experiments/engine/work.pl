@@ -18,7 +18,8 @@
 :- use_module('../../prolog/typhon/kernel/base/names', [counted/3]).
 :- use_module('../../prolog/typhon/kernel/base/monotonic',
               [monotonic_time/1, wait_within/2]).
-:- use_module(progress, [progress/4, progress_done/1]).
+:- use_module(estimate, [estimate/4, estimate_begin/1, estimate_ended/2]).
+:- use_module(progress, [progress/3, progress_done/1]).
 :- use_module(store,
               [ left_parts_remove/2, log_file/2, part_directory/3, part_fail/4,
                 run_directory/3, run_done/3 ]).
@@ -44,7 +45,7 @@ run ten seconds later.
 
 :- dynamic
     worker/3,                   % Out, In, Pid: its streams
-    busy/3,                     % Out, Run, Directory
+    busy/4,                     % Out, Run, Directory, Time when it began
     failed_by/1.                % Cause, of each run that failed
 
 %!  runs_make(+Runs, +Root, +Options, -Failed:integer) is det.
@@ -65,15 +66,14 @@ runs_make(Runs, Root, Options, Failed) :-
            left_parts_remove(Root, Study)),
     exclude(run_done(Root, Logs), Runs, Missing),
     length(Missing, Total),
-    monotonic_time(Begin),
-    with_workers(make_missing(Missing, desk(Jobs, Root, Logs), Begin-Total),
-                 Failed).
+    estimate_begin(Missing),
+    with_workers(make_missing(Missing, desk(Jobs, Root, Logs), Total), Failed).
 
 %!  with_workers(:Goal, -Failed:integer) is det.
 %
 %   Call Goal, which assigns runs to workers, and end these.  A Desk is a term
-%   desk(Jobs, Root, Logs), a Task is Begin-Total.  Failed is the number of
-%   failures that Goal has reported.
+%   desk(Jobs, Root, Logs).  Failed is the number of failures that Goal has
+%   reported.
 
 with_workers(Goal, Failed) :-
     retractall(failed_by(_)),
@@ -97,8 +97,8 @@ make_missing([Run], desk(_, Root, Logs), _) :-
     log_file(Part, Log),
     watching(Log, What, Total, run_here(Run, Root, [logs(Logs)], Outcome)),
     report(Outcome, Run).
-make_missing(Runs, Desk, Task) :-
-    make(Runs, Desk, Task, 0).
+make_missing(Runs, Desk, Total) :-
+    make(Runs, Desk, Total, 0).
 
 watched(run(Study, Case, _), What, Total) :-
     get_dict(clock, Case, Clock),
@@ -106,29 +106,31 @@ watched(run(Study, Case, _), What, Total) :-
     study_call(Study, progress(Case, What, Total)),
     !.
 
-%   make(+Runs, +Desk, +Task, +Done): a free worker gets the next run.
+%   make(+Runs, +Desk, +Total, +Done): a free worker gets the next run.
 
-make([Run|Runs], Desk, Task, Done) :-
+make([Run|Runs], Desk, Total, Done) :-
     free_worker(Desk, Worker),
     !,
     assign(Worker, Run, Desk),
-    make(Runs, Desk, Task, Done).
+    make(Runs, Desk, Total, Done).
 make([], _, _, _) :-
-    \+ busy(_, _, _),
+    \+ busy(_, _, _, _),
     !,
     progress_done(user_error).
-make(Runs, Desk, Task, Done) :-
-    show(Done, Task),
-    next_answer(Run, Outcome),
-    report(Outcome, Run),
-    Done1 is Done + 1,
-    show(Done1, Task),
-    make(Runs, Desk, Task, Done1).
+make(Runs, Desk, Total, Done) :-
+    show_estimate(Done, Total, Desk),
+    (   answer_within(0.5, Run, Outcome)
+    ->  report(Outcome, Run),
+        Done1 is Done + 1,
+        show_estimate(Done1, Total, Desk)
+    ;   Done1 = Done
+    ),
+    make(Runs, Desk, Total, Done1).
 
 %!  report(+Outcome, +Run) is det.
 %!  show(+Done:integer, +Task) is det.
 %
-%   Report how Run ended, and how far the Task is.
+%   Report how Run ended, and how far the Task is, Begin-Total.
 
 report(failed(Directory, Cause), Run) :-
     !,
@@ -148,18 +150,39 @@ report_counts :-
            print_message(error, study_runs(Count, Cause))).
 
 show(Done, Begin-Total) :-
-    time_left(Done, Total, Begin, Left),
-    format(atom(Note), 'runs~w', [Left]),
-    progress(user_error, Done, Total, Note).
+    (   Done > 0
+    ->  monotonic_time(Now),
+        Left is (Now - Begin)/Done*(Total - Done),
+        Share is Done/Total,
+        show(Done, Total, Share, Left)
+    ;   show(Done, Total, 0, none)
+    ).
 
-%   The average time of the finished runs.
+%   The share of the work, not that of the runs, is shown: they differ in length.
 
-time_left(Done, Total, _, '') :-
-    ( Done =:= 0 ; Done =:= Total ),
-    !.
-time_left(Done, Total, Begin, Text) :-
+show_estimate(Total, Total, _) :-
+    !,
+    show(Total, Total, 1, none).
+show_estimate(Done, Total, desk(Jobs, _, _)) :-
     monotonic_time(Now),
-    Left is round((Now - Begin) / Done * (Total - Done)),
+    findall(Run-Since, ( busy(_, Run, _, Began), Since is Now - Began ), Busy),
+    (   estimate(Busy, Jobs, Share0, Left)
+    ->  Share is min(0.99, Share0),
+        show(Done, Total, Share, Left)
+    ;   show(Done, Total, 0, none)
+    ).
+
+show(Done, Total, Share, Left) :-
+    left_text(Done-Total, Left, Text),
+    format(atom(Line), '~d/~d runs~w', [Done, Total, Text]),
+    progress(user_error, Share, Line).
+
+left_text(Total-Total, _, '') :-
+    !.
+left_text(_, none, '') :-
+    !.
+left_text(_, Left0, Text) :-
+    Left is round(Left0),
     Hours is Left // 3600,
     Minutes is Left mod 3600 // 60,
     Seconds is Left mod 60,
@@ -175,19 +198,21 @@ time_left(Done, Total, Begin, Text) :-
 
 free_worker(_, Out) :-
     worker(Out, _, _),
-    \+ busy(Out, _, _),
+    \+ busy(Out, _, _, _),
     !.
 free_worker(desk(Jobs, _, _), Out) :-
     aggregate_all(count, worker(_, _, _), Count),
     Count < Jobs,
     sig_atomic(worker_start(Out)).
 
+%   Compiled arithmetic makes runs up to a tenth shorter, and does not change them.
+
 worker_start(Out) :-
     current_prolog_flag(executable, Swipl),
     module_property(study_work, file(Here)),
     absolute_file_name(worker, File, [file_type(prolog), relative_to(Here)]),
     process_create(Swipl,
-                   [ '-q', '-g', 'study_worker:work', '-t', 'halt(1)', File ],
+                   [ '-O', '-q', '-g', 'study_worker:work', '-t', 'halt(1)', File ],
                    [ stdin(pipe(In, [encoding(utf8)])),
                      stdout(pipe(Out, [encoding(utf8)])),
                      process(Pid) ]),
@@ -199,33 +224,30 @@ assign(Out, Run, desk(_, Root, Logs)) :-
     Run = run(Study, Case, Seed),
     run_directory(Root, Run, Directory),
     dict_pairs(Case, _, Pairs),
-    assertz(busy(Out, Run, Directory)),
+    monotonic_time(Now),
+    assertz(busy(Out, Run, Directory, Now)),
     worker(Out, In, _),
     catch(( format(In, '~k.~n', [make(Study, Pairs, Seed, Directory, Logs)]),
             flush_output(In) ),
           error(_, _),
           true).
 
-next_answer(Run, Outcome) :-
-    (   answer_within(0.1, Run0, Outcome0)
-    ->  Run = Run0,
-        Outcome = Outcome0
-    ;   next_answer(Run, Outcome)
-    ).
-
-%!  answer_within(+Seconds, -Run, -Outcome) is semidet.
+%!  answer_within(+Limit, -Run, -Outcome) is semidet.
 %
 %   Outcome is `made` or failed(Directory, Cause).
 %
 %   On 9.2 an exception during wait_for_input/3 corrupts the stacks, so the
 %   signal that raises it is delayed for a moment.
 
-answer_within(Seconds, Run, Outcome) :-
-    findall(Out, busy(Out, _, _), Outs),
-    sig_atomic(wait_for_input(Outs, Ready, Seconds)),
+answer_within(Limit, Run, Outcome) :-
+    findall(Out, busy(Out, _, _, _), Outs),
+    sig_atomic(wait_for_input(Outs, Ready, Limit)),
     Ready = [Out|_],
     answer(Out, Answer),
-    retract(busy(Out, Run, Directory)),
+    retract(busy(Out, Run, Directory, Began)),
+    monotonic_time(Now),
+    Seconds is Now - Began,
+    estimate_ended(Run, Seconds),
     (   Answer = answer(Outcome)
     ->  true
     ;   worker(Out, _, Pid),
@@ -259,7 +281,7 @@ worker_end(Out, Status) :-
 %   Workers get SIGTERM, and are killed if they do not end.
 
 end_workers :-
-    retractall(busy(_, _, _)),
+    retractall(busy(_, _, _, _)),
     signal_workers(term),
     thread_create(kill_later, Killer, [alias(study_work_killer)]),
     dismiss,

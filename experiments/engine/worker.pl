@@ -4,12 +4,12 @@
           ]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(option), [option/3]).
-:- use_module(run, [run_make/4]).
+:- use_module(run, [run_again/4, run_make/4]).
 :- use_module(signals, [stopping_on_signals/1]).
 :- use_module(sources, [sources_changed/2, sources_hash/2]).
 :- use_module(store,
-              [ part_begin/1, part_directory/3, part_fail/4, part_install/3,
-                part_remove/1, run_directory/3, run_done/3 ]).
+              [ log_file/2, part_begin/1, part_directory/3, part_fail/4,
+                part_install/3, part_remove/1, run_directory/3, run_done/3 ]).
 :- use_module(studies, [study_load/2]).
 
 /** <module> Making one run after another
@@ -79,7 +79,8 @@ make(Run, Directory, Logs, How, Outcome) :-
           must_be_unchanged(Run) ),
         Error, true),
     (   var(Error)
-    ->  part_install(Part, Directory, Logs),
+    ->  kept_log(Run, Logs, Kept),
+        part_install(Part, Directory, Kept),
         Outcome = made
     ;   Error = stopped_by(_)
     ->  part_remove(Part),
@@ -88,8 +89,16 @@ make(Run, Directory, Logs, How, Outcome) :-
         part_fail(Part, Directory, Why, Outcome)
     ).
 
+make_in(run(Study, Case, replay(Seed)), Part) :-
+    !,
+    log_file(Part, Log),
+    run_again(Study, Case, Seed, Log).
 make_in(run(Study, Case, Seed), Part) :-
     run_make(Study, Case, Seed, Part).
+
+kept_log(run(_, _, replay(_)), _, true) :-
+    !.
+kept_log(_, Logs, Logs).
 
 %   Checks that the sources are those of the sender's hash.
 

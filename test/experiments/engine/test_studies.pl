@@ -188,8 +188,13 @@ test(studies_of_the_thesis_are_ordered_by_figure, Figures == Sorted) :-
     findall(I, ( nth1(I, Bases, Base), member(Kind, [figure_, table_]),
                  sub_atom(Base, 0, _, _, Kind) ),
             Figures),
-    length(Figures, Count),
+    length(Bases, Count),
     numlist(1, Count, Sorted).
+test(studies_beyond_the_thesis_have_a_name_of_their_own) :-
+    named([beyond], Bases),
+    assertion(memberchk('beyond_urgent.pl', Bases)),
+    forall(member(Base, Bases),
+           assertion(sub_atom(Base, 0, _, _, beyond_))).
 test(each_study_occurs_once, Bases == ['figure_5_6.pl']) :-
     project_file('experiments/sync/figure_5_6', File),
     named(['5.6', File, '5.6'], Bases).
