@@ -74,16 +74,13 @@ next(Dynamics, State0) :-
 
 %!  dynamics_kept(+Dynamics, +Seconds, -Then) is semidet.
 %
-%   Then is the next event, or `none`. Waits while changes are being applied,
-%   and fails if that takes longer than Seconds.
+%   Then is the next event. Waits while changes are being applied, and fails if
+%   that takes longer than Seconds.
 
 dynamics_kept(Dynamics, Seconds, Then) :-
     await_change(Dynamics, Seconds),
     due(Dynamics, Queue),
-    (   thread_peek_message(Queue, Then0)
-    ->  Then = Then0
-    ;   Then = none
-    ).
+    thread_peek_message(Queue, Then).
 
 await_change(Dynamics, Seconds) :-
     poll_within(Seconds, \+ changing(Dynamics, _)).
@@ -101,10 +98,7 @@ dynamics_again(Name, Then, Clock, OnChange, Dynamics) :-
     ),
     begin(Dynamics, Clock, OnChange),
     due(Dynamics, Queue),
-    (   Then == none
-    ->  true
-    ;   thread_send_message(Queue, Then)
-    ).
+    thread_send_message(Queue, Then).
 
 typhon_scheduler:fire(Dynamics, links) :-
     !,
