@@ -12,6 +12,8 @@
 :- use_module(library(random), [random/3]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(typhon)).
+:- use_module(library(typhon/kernel/host), [address_parts/3]).
+:- use_module(library(typhon/kernel/wire), [endpoint_address/1]).
 :- use_module('../../../agents/allocation/operator',
               [robot_start/3, task_allocate/4]).
 :- use_module('../../../agents/learning/operator', [learning_start/5]).
@@ -285,6 +287,13 @@ test(appointments_links_and_names_are_restored, true(Said == [early,late])) :-
 say(Host, What) :-
     agent_create(clauses([(:- agent(speaker)), (main :- log(said(What)))]), _,
                  [host(Host)]).
+
+test(process_listens_at_the_port_of_its_hosts_alone, Again == Endpoint) :-
+    with_file(File,
+        ( with_network(ring(2), [], Network, [Host|_],
+                       network_save(Network, File)),
+          with_loaded_network(File, _, endpoint_address(Again)) )),
+    address_parts(Host, _, Endpoint).
 
 %   Another host of this process is not saved, and continues.
 

@@ -6,9 +6,11 @@
 :- use_module(library(plunit)).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(lists), [member/2, numlist/3, sum_list/2]).
+:- use_module(library(prolog_wrap), [unwrap_predicate/2, wrap_predicate/4]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(time), [call_with_time_limit/2]).
 :- use_module(library(typhon)).
+:- use_module(library(typhon/kernel/host), [time_hold/1]).
 
 /** <module> Virtual time: no real waits, and repeatable runs
 
@@ -357,6 +359,16 @@ test(endless_goal_is_reported) :-
     stuck_warning(( repeat, fail ), virtual_stuck(_, _)).
 test(endless_instant_is_reported) :-
     stuck_warning(spin, virtual_busy(_)).
+%   A thread that does not end of itself is aborted after a second.
+
+test(time_that_is_held_ends_of_itself,
+     [ setup(( flag(test_virtual_aborts, _, 0),
+               wrap_predicate(typhon_own_thread:abort_quietly, counted, Abort,
+                              ( flag(test_virtual_aborts, N, N+1), Abort )) )),
+       cleanup(unwrap_predicate(typhon_own_thread:abort_quietly/0, counted)),
+       Aborts == 0 ]) :-
+    with_hosts([one-[clock(virtual)]], ( time_hold(10), host_stop(one) )),
+    flag(test_virtual_aborts, Aborts, Aborts).
 test(no_event_is_due) :-
     capturing(with_virtual([], N, nothing_due(N)), _).
 
