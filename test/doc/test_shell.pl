@@ -149,10 +149,12 @@ how(_, ends("")).
 
 %   long(?Part, ?With): commands with Part may take minutes or hours (make thesis,
 %   demo, bench, chaos; all studies), and are not run: with the option With, make
-%   only prints its recipe, and a study its runs. An attack has one round.
+%   only prints its recipe, and a study its runs; readings have none. An attack has
+%   one round.
 
 long("make ", " -n").
 long("study.pl -- ", " --list").
+long("readings.pl -- ", " --collect").
 long("chaos/supervised.pl", " --rounds=1").
 long("counts.pl -- 3.3 ", " --list").
 long("counts.pl ", " --runs 1").
