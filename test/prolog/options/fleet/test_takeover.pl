@@ -90,6 +90,17 @@ asked(Counter, N) :-
     agent_result(Asker, Said, 10),
     assertion(Said == N).
 
+%   moved(+Peer, +Host, -Result): an agent of Peer moves to Host; Result is the
+%   error, or `none`.
+
+moved(Peer, Host, Result) :-
+    peer_agent(Peer, [ (:- agent(mover, [state([to/1])])),
+                       (main :- to(H),
+                                catch(( move(H), E = none ), error(E, _), true),
+                                result(E)) ],
+               [to(Host)], Agent),
+    agent_result(Agent, Result, 60).
+
 %   Another process goes on in place of the peer, which does not run.
 
 stands_in(Redis, Agent) :-
@@ -235,6 +246,19 @@ test(suspended_process_is_fenced) :-
                           peer_ends(beta, Status),
                           assertion(Status == exit(75)),
                           asked(Agent, 4) ))).
+
+%   It finds in the engine where the stand-in is, at which nobody has listened
+%   before.
+
+test(stand_in_is_reached_by_a_member_that_joins_later, Result == none) :-
+    with_fleet([recover(true)], Redis, [alpha-[]],
+               counting(Redis, Agent,
+                        ( peer_kill(beta),
+                          stands_in(Redis, Agent),
+                          member_spec(Redis, gamma, [], [], Gamma),
+                          test_peers:start(Gamma),
+                          peer_host(beta, Host),
+                          moved(gamma, Host, Result) ))).
 
 test(process_that_comes_back_in_time_keeps_its_journal) :-
     with_fleet([recover(true)], Redis, [alpha-[]],
