@@ -6,7 +6,7 @@
 :- use_module(documents, [document/2]).
 :- use_module(library(http/json), [json_write_dict/3]).
 :- use_module(library(readutil), [read_file_to_string/3]).
-:- use_module(library(lists), [append/3, last/2, member/2, nth1/3]).
+:- use_module(library(lists), [append/3, last/2, member/2, memberchk/2, nth1/3]).
 
 /** <module> The sessions of documents that readers can run in their browser
 
@@ -30,7 +30,8 @@ playable(Path, N, Files, Queries) :-
     nth1(N, Sessions, Session),
     append(Before, [block("prolog-session", Session)|_], Blocks),
     findall(Name-Content,
-            ( member(block("prolog", Content), Before),
+            ( member(block(Kind, Content), Before),
+              memberchk(Kind, ["prolog", "text"]),
               file_shown(Content, Name) ), Files),
     length(Earlier, N),
     append(Earlier, _, Sessions),
