@@ -112,13 +112,14 @@ part(studies,                           % mechanisms, experiments, applications
        'test/examples/test_irrigation_mqtt.pl',
        'test/examples/test_people_examples.pl',
        'test/examples/test_solar.pl', 'test/examples/test_warehouse.pl',
-       'test/app/test_playground_page.pl', 'test/doc/test_course.pl',
+       'test/app/test_playground_page.pl',
+       'test/app/test_playground_firefox.pl', 'test/doc/test_course.pl',
        'test/doc/test_equations.pl',
        'test/doc/test_fidelity.pl', 'test/project/test_locale.pl',
        'test/prolog/network/test_saving.pl',
        'test/prolog/tools/test_mistyped.pl', 'test/lib/algorithms_bench.pl',
-       'test/lib/event_log.pl',
-       'test/lib/fake_node.pl', 'test/lib/project_studies.pl',
+       'test/lib/event_log.pl', 'test/lib/playground_scenes.pl',
+       'test/lib/wasm/sessions.js', 'test/lib/fake_node.pl', 'test/lib/project_studies.pl',
        'test/lib/robot_logs.pl', 'test/lib/study_files.pl',
        'test/lib/toy_study.pl' ]).
 part(development,                       % checks and measurements of all parts

@@ -37,7 +37,10 @@ class Playground {
       button('Set up', () => this.setUp(), { class: 'primary' }), this.stop,
       button('Share', () => this.share()), this.which),
     this.tabs, this.editor.element, this.queries, this.study, this.said);
-    connection.onNews = ({ said = [] }) => said.forEach(line => this.say(line));
+    connection.onNews = ({ said = [], ended }) => {
+      said.forEach(line => this.say(line));
+      if (ended) this.end(ended);
+    };
     addEventListener('hashchange', () => this.load());
     setInterval(() => this.watch(), 1000);
   }

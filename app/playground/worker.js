@@ -1,14 +1,14 @@
 // Runs Prolog: queries and orders of the page, and virtual time in slices. It
 // takes {do: 'first'}, {do: 'save', files} and {ask: text}, with an id, and sends
-// {id, reply} or {id, error}, {frame}, and {said: [line]}.
+// {id, reply} or {id, error}, {frame}, {said: [line]}, and {ended: why} at last.
 
 'use strict';
 
 const SLICE = 0.03;             // s of work between two looks at messages
 const SOON = 0.25;              // s, at most, between two slices
 const LINES = 2000;             // of output between two messages
-const MEMORY = 2 ** 30;         // bytes, between two slices
-let prolog = null, FS = null, memory = null, timer = null, said = [];
+const MEMORY = 2 ** 29;         // bytes
+let prolog = null, FS = null, full = false, timer = null, said = [];
 
 const say = line => {
   if (said.length < LINES) said.push(line);
@@ -22,6 +22,22 @@ function closeDoors() {
     try {
       Object.defineProperty(self, name, { value: undefined, configurable: false });
     } catch { /* not there */ }
+}
+
+// Prolog gets no more memory than this, and reports it or breaks; the worker ends
+// then.
+function bound(memory) {
+  memory.grow = pages => {
+    full ||= memory.buffer.byteLength + 65536 * pages > MEMORY;
+    if (full) throw new RangeError('Too much memory');
+    return WebAssembly.Memory.prototype.grow.call(memory, pages);
+  };
+}
+
+function endIfFull() {
+  if (!full) return;
+  postMessage({ said, ended: 'It used too much memory, so it was stopped' });
+  close();
 }
 
 function save(files) {
@@ -50,8 +66,8 @@ async function begin() {
     preRun: [made => made.FS.writeFile('/typhon.state', new Uint8Array(state))],
     async instantiateWasm(imports, made) {
       const instance = await WebAssembly.instantiate(module, imports);
-      memory = Object.values(instance.exports).find(value =>
-        value instanceof WebAssembly.Memory);
+      bound(Object.values(instance.exports).find(value =>
+        value instanceof WebAssembly.Memory));
       made(instance);
     },
   }));
@@ -72,10 +88,6 @@ const text = value => (typeof value === 'object' ? value.v ?? String(value) : St
 function news() {
   const frame = text(once('typhon_page_tab:tab_news(Json)').Json);
   if (frame) postMessage({ frame });
-  if (memory.buffer.byteLength > MEMORY) {
-    postMessage({ said: ['% Too much memory: the worker has ended. Stop starts another'] });
-    close();
-  }
   if (said.length > 0) postMessage({ said });
   said = [];
 }
@@ -89,6 +101,7 @@ function slice() {
 
 const guarded = act => () => {
   try { act(); } catch (error) { say(error.message); postMessage({ said }); said = []; }
+  endIfFull();
 };
 
 const ready = begin();
@@ -111,4 +124,5 @@ onmessage = async ({ data: { id, ...message } }) => {
     postMessage({ id, error: error.message, said });
     said = [];
   }
+  endIfFull();
 };

@@ -1,5 +1,6 @@
 :- module(test_browser,
           [ with_browser/2,             % -Browser, :Goal
+            with_firefox/2,             % -Browser, :Goal
             browser_open/2,             % +Browser, +Address
             browser_run/3,              % +Browser, +Script, -Result
             browser_run/4,              % +Browser, +Script, +Arguments, -Result
@@ -19,18 +20,22 @@
             browser_barriers/2          % +Browser, -Texts
           ]).
 
-/** <module> A Chromium for tests
+/** <module> A Chromium for tests, or a Firefox
 
-Driven by chromedriver, through the W3C WebDriver protocol.
+Chromium is driven by chromedriver, through the W3C WebDriver protocol, Firefox
+by the same commands in its own protocol, Marionette, which needs no driver.  It
+has no browser_theme/2, browser_tabs/2 and browser_complaints/2.
 
 *Threading*: one thread at a time uses a browser.
 */
 
 :- use_module(common,
               [free_port/1, project_file/2, wait_until/2, with_tmp_dir/1]).
+:- use_module(texts, [write_file/3]).
 :- use_module(library(base64), [base64/2]).
 :- use_module(library(filesex), [delete_directory_contents/1]).
 :- use_module(library(http/http_json), []).
+:- use_module(library(http/json), [atom_json_dict/3]).
 :- use_module(library(http/http_client),
               [http_delete/3, http_get/3, http_post/4]).
 :- use_module(library(lists), [member/2]).
@@ -38,8 +43,13 @@ Driven by chromedriver, through the W3C WebDriver protocol.
               [ process_create/3, process_kill/1, process_kill/2,
                 process_wait/2 ]).
 :- use_module(library(readutil), [read_file_to_string/3, read_line_to_string/2]).
+:- use_module(library(socket), [tcp_connect/3]).
+:- use_module(library(utf8), [utf8_codes/3]).
 
-:- meta_predicate with_browser(-, 0), browser_hold(+, +, 0).
+:- meta_predicate
+    with_browser(-, 0),
+    with_firefox(-, 0),
+    browser_hold(+, +, 0).
 
 %!  with_browser(-Browser, :Goal) is semidet.
 %
@@ -107,6 +117,77 @@ listens(Out) :-
     ;   listens(Out)
     ).
 
+%!  with_firefox(-Browser, :Goal) is semidet.
+%
+%   Call Goal once while the Firefox Browser is there.
+
+with_firefox(Browser, Goal) :-
+    with_tmp_dir(firefox(Browser, Goal)).
+
+firefox(Browser, Goal, Dir) :-
+    atom_concat(Dir, '/user.js', Prefs),
+    write_file(Prefs, 'user_pref("marionette.port", 0);~n\c
+        user_pref("browser.shell.checkDefaultBrowser", false);~n', []),
+    setup_call_cleanup(
+        process_create(path('firefox-esr'),
+                       [ '--headless', '--no-remote', '--marionette',
+                         '--profile', Dir, 'about:blank' ],
+                       [ stdin(null), stdout(null), stderr(null),
+                         environment(['HOME'=Dir, 'TMPDIR'=Dir]), process(Pid) ]),
+        with_marionette(Dir, Browser, Goal),
+        ( process_kill(Pid),
+          process_wait(Pid, _),
+          wait_until(emptied(Dir), 20) )).
+
+with_marionette(Dir, firefox(In, Out), Goal) :-
+    atom_concat(Dir, '/MarionetteActivePort', File),
+    wait_until(port_in(File, Port), 60),
+    setup_call_cleanup(
+        tcp_connect('127.0.0.1':Port, Stream, []),
+        ( stream_pair(Stream, In, Out),
+          set_stream(Stream, encoding(octet)),
+          heard(In, _),
+          marionette(firefox(In, Out), 'NewSession', _{}, _),
+          marionette(firefox(In, Out), 'SetTimeouts', _{script:120000}, _),
+          once(Goal) ),
+        close(Stream, [force(true)])).
+
+port_in(File, Port) :-
+    exists_file(File),
+    read_file_to_string(File, Text, []),
+    catch(number_string(Port, Text), error(_, _), fail).
+
+%   A frame is JSON after its length in bytes and a colon.
+
+marionette(firefox(In, Out), Command, Body, Value) :-
+    atom_concat('WebDriver:', Command, Name),
+    atom_json_dict(Text, [0, 0, Name, Body], [as(codes), width(0)]),
+    phrase(utf8_codes(Text), Bytes),
+    length(Bytes, Length),
+    format(Out, '~d:~s', [Length, Bytes]),
+    flush_output(Out),
+    heard(In, [_, _, Error, Result]),
+    (   Error == null
+    ->  Value = Result
+    ;   throw(error(browser(Error.error, Error.message), _))
+    ).
+
+heard(In, Term) :-
+    read_length(In, Length),
+    read_string(In, Length, Read),
+    string_codes(Read, Bytes),
+    phrase(utf8_codes(Codes), Bytes),
+    atom_json_dict(Codes, Term, []).
+
+read_length(In, Length) :-
+    read_string(In, ":", "", _, Digits),
+    number_string(Length, Digits).
+
+marionette_name(url, 'Navigate').
+marionette_name('execute/async', 'ExecuteAsyncScript').
+marionette_name(actions, 'PerformActions').
+marionette_name(window/rect, 'SetWindowRect').
+
 capabilities(_{capabilities:_{alwaysMatch:_{
     browserName:"chrome",
     timeouts:_{script:120000},
@@ -130,6 +211,10 @@ call_driver(Method, Address, Body, Value) :-
     ;   true
     ).
 
+command(firefox(In, Out), Path, Body, Value) :-
+    marionette_name(Path, Name),
+    marionette(firefox(In, Out), Name, Body, Result),
+    ( get_dict(value, Result, Value) -> true ; Value = Result ).
 command(browser(Base), Path, Body, Value) :-
     atomic_list_concat([Base, /, Path], Address),
     call_driver(post, Address, Body, Value).
@@ -284,6 +369,9 @@ pointed(up, _{type:"pointerUp", button:0}).
 %
 %   The size of the window, in pixels; `light` or `dark`.
 
+browser_size(firefox(In, Out), Width, Height) :-
+    !,
+    command(firefox(In, Out), window/rect, _{width:Width, height:Height}, _).
 browser_size(Browser, Width, Height) :-
     cdp(Browser, "Emulation.setDeviceMetricsOverride",
         _{width:Width, height:Height, deviceScaleFactor:1, mobile:false}).

@@ -48,7 +48,8 @@ guess(Suite, Processor, Seconds) :-
     Processor is Seconds/2.
 guess(_, 2, 5).
 
-long(80, [chaos, shell, scripted, cells, parking, engines, playground]).
+long(80, [chaos, shell, scripted, cells, parking, engines, playground,
+          playground_page, playground_firefox]).
 long(40, [ doc, page, lasting, quick, network_journal, user_program, cell_floods,
            members, takeover, fleet_journal, study_work, mqtt, pack ]).
 long(25, [ cell_policy, allocation_network, wire, cell_frames, app, network, make,
