@@ -24,8 +24,8 @@
 
 /** <module> Questions that wait for a person, and tokens of those who answer
 
-With a journal a question is put when the turn of its agent is committed, so no
-question is asked twice; an answer, and the end of its question, are one unit of
+With a journal a person sees a question when the turn of its agent is committed, so
+no question is asked twice; an answer, and the end of its question, are one unit of
 work.  Of several answers to a question the first counts.
 
 *Threading*: any thread.  Exactly one thread retracts a question, and that one
@@ -162,13 +162,15 @@ hide_oldest(Host) :-
 %!  person_page(+Host, -Rows:list) is det.
 %
 %   Rows are asked(Number, Agent, What, Kind), the oldest first, without
-%   questions of agents that are known to have ended.
+%   questions of agents that are known to have ended.  On return they are
+%   committed where there is a journal.
 
 person_page(Host, Rows) :-
     findall(asked(Number, Agent, What, Kind),
             ( question(Number, _, Host, Agent, What, Kind),
               ( Kind == shown -> true ; \+ over(Number, Agent) ) ),
-            Rows).
+            Rows),
+    ( Rows == [] -> true ; sync_changes ).
 
 over(Number, Agent) :-
     agent_outcome(Agent, _),
