@@ -103,9 +103,9 @@ test(no_program_is_missing, Status-Notes == exit(0)-[]) :-
 
 test(only_missing_programs_are_listed, Status == exit(0)) :-
     commands(Commands),
-    subtract(Commands, [dot, ip], Rest),
+    subtract(Commands, [gnuplot, dot], Rest),
     install_with(Rest, 0, Status, [Note]),
-    assertion(sub_string(Note, _, _, 0, " graphviz iproute2")).
+    assertion(sub_string(Note, _, _, 0, " gnuplot-nox graphviz")).
 
 test(program_selected_by_name, Status == exit(0)) :-
     commands(Commands),

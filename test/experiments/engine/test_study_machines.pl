@@ -4,7 +4,7 @@
 
 :- use_module('../../lib/common').
 
-:- needs([cluster]).
+:- needs(['openssh-client', 'openssh-server', python3]).
 
 :- use_module('../../lib/beside_machines', [machines_permitted/0]).
 :- use_module('../../lib/study_files', [study_command/4, with_study_file/4]).

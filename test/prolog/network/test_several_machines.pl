@@ -5,7 +5,7 @@
 
 :- use_module('../../lib/common').
 
-:- needs([cluster]).
+:- needs(['openssh-client', 'openssh-server', python3]).
 
 :- use_module('../../lib/beside_machines', [beside/5, machines_permitted/0]).
 :- use_module(library(apply), [maplist/2]).
