@@ -610,6 +610,21 @@ test(agent_waits_for_an_engine_that_does_not_answer,
                  peer_restart(robot),
                  agent_result(A, Result, 60) )).
 
+%   The move itself is shown as `true`.
+
+test(goals_of_an_agent_that_waits_are_those_after_its_move, Move == true) :-
+    with_robot([fsync(always)], [], Redis, Robot,
+               ( peer_kill(robot),
+                 redis_signal(Redis, stop),
+                 visitor(Robot, 600, A),
+                 wait_until(agent_property(A, state(in_doubt)), 30),
+                 agent_property(A, goals([catch((Move,_), _, _)|_])),
+                 redis_signal(Redis, cont),
+                 gone([A]),
+                 peer_restart(robot),
+                 agent_send(A, last),
+                 agent_result(A, _, 60) )).
+
 test(time_that_is_over_while_the_engine_is_suspended_ends_the_wait_once,
      Result == [host_unreachable(Robot),Alpha]) :-
     with_robot([], [], Redis, Robot,
