@@ -12,7 +12,7 @@ all figures in OUT/bench.csv.
     swipl bench/run.pl -- [--out DIR] [NAME ...]
 
 Names are those of the files here; without any, all but
-`peers`, `keys`, `journal` and `fleet` are run.
+`peers`, `keys`, `journal`, `fleet` and `playground` are run.
 Machines are noisy: compare figures of one run, placement by placement. */
 
 :- initialization(main, main).
@@ -48,7 +48,7 @@ must_be_known(Name) :-
     ).
 
 wanted([], Script) :-
-    \+ memberchk(Script, [peers, keys, journal, fleet]).        % they take minutes
+    \+ memberchk(Script, [peers, keys, journal, fleet, playground]). % take minutes
 wanted([Name|Names], Script) :-
     memberchk(Script, [Name|Names]).
 
@@ -77,6 +77,7 @@ job(phercon, [env], 3).
 job(sync, [env], unpinned).
 job(learning, [env], 1).
 job(learning, [env], 2).
+job(playground, [env], unpinned).
 job(peers, [env], 3).
 job(journal, [env], unpinned).
 job(fleet, [env], all).
