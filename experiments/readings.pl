@@ -3,7 +3,7 @@
         swipl experiments/readings.pl -- sync --runs 2
         swipl experiments/readings.pl -- sync --runs 10 --reading choices=in_order
 
-    doc/readings.md explains the tables, and has results.
+    doc/fidelity/readings.md explains the tables, and has results.
 */
 
 :- module(readings, []).
