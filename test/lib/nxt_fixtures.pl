@@ -19,10 +19,12 @@ one.  Both are processes of their own behind pseudo-terminals.
 */
 
 :- use_module(common).
+:- use_module(slowness, [patience/2]).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [append/3]).
 :- use_module(library(typhon/nxt)).
 
 :- meta_predicate
@@ -95,8 +97,12 @@ brick_in(File, Brick, Port, Goal, Dir) :-
                   call(Goal)
                 )).
 
+%   Calls of a test may need longer on a slow machine, too.
+
 with_brick(Name, Options, Brick, Goal) :-
-    with_brick(Brick, Port, connected(Name, Port, Options, Goal)).
+    patience(3, Seconds),
+    append(Options, [deadline(Seconds)], Options1),
+    with_brick(Brick, Port, connected(Name, Port, Options1, Goal)).
 
 answer(far(_, Out), Term) :-
     read(Out, Term0),
