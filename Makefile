@@ -33,7 +33,7 @@ CHECKS = list_undefined, list_trivial_fails, list_format_errors, \
     demo-page page-tools playground thesis beyond thesis-real test test-quick stability \
     chaos scripted fuzz fuzz-programs hostile mutants check check-all \
     doc pictures vscode release bench bench-peers profile \
-    test-portability install clean
+    test-portability test-boards install clean
 
 # In the environment of pack_install there is where libraries of C go.
 help:
@@ -184,6 +184,10 @@ profile: tools          ## which module takes how long of a hop
 test-portability:       ## the suites on other Prologs (root); SWIPL=one more
 	$(call NEEDS,test/portability)
 	@SWIPL='$(SWIPL)' test/portability/run
+
+test-boards:            ## suites on Debian for arm64 and armhf, by qemu (root)
+	$(call NEEDS,test/portability)
+	@SWIPL='$(SWIPL)' test/portability/run --boards
 
 clean:                  ## remove what runs have left in out/
 	@rm -rf out

@@ -1,5 +1,6 @@
 :- module(test_ring, []).
 :- use_module('../lib/common').
+:- use_module('../lib/slowness', [patience/2]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(lists),
               [append/2, append/3, member/2, reverse/2, same_length/2]).
@@ -129,7 +130,8 @@ addresses(Names, Addresses) :-
     maplist(host, Names, Addresses).
 
 joined(Agent, Outcome) :-
-    agent_join(Agent, Outcome, 60).
+    patience(60, Seconds),
+    agent_join(Agent, Outcome, Seconds).
 
 taken(Host, Fact) :-
     host(Host, Address),
