@@ -174,15 +174,15 @@ perform(Plans, Options) :-
     planned(Plans, Options, _, run(Study, _, _)),
     !,
     call_cleanup(live_page(Study, Port), page_stop).
+perform(_, Options) :-
+    beside_machines(Options, Status),
+    !,
+    halt(Status).
 perform(Plans, Options) :-
     option(collect(true), Options),
     !,
     figures(Plans, Options, Missing),
     halt_unless_none(Missing).
-perform(_, Options) :-
-    beside_machines(Options, Status),
-    !,
-    halt(Status).
 perform(Plans, Options) :-
     findall(Run, planned(Plans, Options, _, Run), Runs0),
     longest_first(Runs0, Runs),
