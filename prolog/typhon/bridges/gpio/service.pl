@@ -36,6 +36,7 @@ The thread that reads from the helper delivers edges.
     known_pin/4.                % Host, Name, Kind, Request: opens the pin
 
 most_pins(200).
+start_seconds(30).
 
 typhon_starting:starts(gpio, Host, Pins, Options) :-
     check_options(gpio_option, Options),
@@ -192,8 +193,18 @@ the_pin(Name, Host, Kind) :-
 %   others of pin/2 and helper_call/5
 
 ask(Host, Request, Reply) :-
-    gpio_option(Host, timeout(Seconds), 10),
+    gpio_option(Host, timeout(Seconds0), 10),
+    get_dict(do, Request, Do),
+    seconds(Do, Seconds0, Seconds),
     helper_call(gpio(Host), Request, Seconds, failure(Host, Request), Reply).
+
+%   gpiozero takes some seconds to start on a small board.
+
+seconds(open, Seconds0, Seconds) :-
+    !,
+    start_seconds(Start),
+    Seconds is max(Start, Seconds0).
+seconds(_, Seconds, Seconds).
 
 failure(Host, Request, said(Dict), error(Formal, context(_, Message))) :-
     _{error:Text, message:Message} :< Dict,
