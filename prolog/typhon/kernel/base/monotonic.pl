@@ -266,7 +266,9 @@ monotonic_start :-
 
 monotonic_stop :-
     (   retract(ticker(Thread))
-    ->  thread_signal(Thread, throw(typhon_clock_end)),
+    ->  catch(thread_signal(Thread, throw(typhon_clock_end)),
+              error(existence_error(_, _), _),
+              true),                    % it has seen that, and ended
         thread_join(Thread, _)
     ;   true
     ).

@@ -5,6 +5,8 @@
 :- use_module(library(lists)).
 :- use_module(library(thread), [concurrent_maplist/3]).
 :- use_module(library(typhon)).
+:- use_module(library(typhon/kernel/base/monotonic),
+              [monotonic_start/0, monotonic_stop/0]).
 
 /** <module> The time of day is set while processes wait
 
@@ -60,3 +62,17 @@ test(no_agent_is_lost_in_chaos, Results == [[chaos-[done]],[chaos-[done]]]) :-
     at_once([chaos], [30,3600], Results).
 
 :- end_tests(set_clock).
+
+:- begin_tests(clock_thread).
+
+%   The thread ends by itself in the instant before it is told to.
+
+test(thread_has_ended_before_it_is_stopped) :-
+    monotonic_start,
+    retract(typhon_monotonic:ticker(Thread)),
+    wait_until(thread_property(Thread, status(true)), 10),
+    assertz(typhon_monotonic:ticker(Thread)),
+    monotonic_stop,
+    assertion(\+ is_thread(Thread)).
+
+:- end_tests(clock_thread).
