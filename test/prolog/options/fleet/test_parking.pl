@@ -14,11 +14,13 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_create/3]).
+:- use_module(library(prolog_wrap), [unwrap_predicate/2, wrap_predicate/4]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/host), [address_parts/3]).
 :- use_module(library(typhon/kernel/wire), [endpoint_peer/2]).
 :- use_module(library(typhon/options/fleet),
               [fleet_park_drop/2, fleet_park_send/2]).
+:- use_module(library(typhon/options/fleet/parking), []).
 
 :- needs([fleet, journal]).
 
@@ -526,6 +528,26 @@ test(mail_is_kept_while_the_engine_does_not_answer,
                  agent_send(A, last),
                  peer_restart(robot),
                  agent_result(A, Result, 60) )).
+
+%   Else a thread would ask all the time, as long as an engine answers one
+%   question, and not the other.
+
+test(letter_that_an_engine_did_not_take_is_sent_later,
+     [ setup(( flag(test_parking_asked, _, 0),
+               wrap_predicate(typhon_parking:letter_asked(_, _, _, _, Answer),
+                              unanswered, _,
+                              ( flag(test_parking_asked, N, N+1),
+                                ( N < 3 -> Answer = unknown
+                                ; Answer = none ) )) )),
+       cleanup(unwrap_predicate(typhon_parking:letter_asked/5, unanswered)),
+       Asked == 1 ]) :-
+    with_hosts([alpha],
+               setup_call_cleanup(
+                   assertz(typhon_parking:letter(nobody, 1,
+                                                 letter('', [], none))),
+                   typhon_parking:letters_sent(nobody),
+                   retractall(typhon_parking:letter(nobody, _, _)))),
+    flag(test_parking_asked, Asked, Asked).
 
 test(mail_for_an_agent_that_the_engine_does_not_know_is_an_error,
      error(host_unreachable(_))) :-
