@@ -15,8 +15,9 @@ suites in the environment, where it may also be given:
     TYPHON_SLOWNESS=4 swipl test/run.pl
 
 Deadlines become that much longer: those of wait_until/2 and of all that is
-built on it, and, when a suite is loaded, those that patient/3 lists.  Where
-nothing was measured, deadlines are as written.
+built on it, and, when a suite is loaded, those that patient/4 lists, if they
+are integers: a time that is tested itself is written as 10.0.  Where nothing was
+measured, deadlines are as written.
 
 *Threading*: any thread.
 */
@@ -72,7 +73,8 @@ patience(Seconds, Longer) :-
                 *       WAITS OF SUITES        *
                 *******************************/
 
-%   patient(?Goal, ?Seconds, ?Longer): Goal with Longer in place of Seconds.
+%   patient(?Goal, ?Seconds, ?Longer, ?More): Longer is Goal with More in place of
+%   Seconds.
 %   Short ones, and the outcome `timeout`, are part of what is tested.
 
 patient(agent_join(Agent, Outcome, S), S, agent_join(Agent, Outcome, L), L) :-
@@ -85,8 +87,8 @@ patient(endpoint_call(To, Kind, Term, Answer, S), S,
     nonvar(Answer).
 patient(set_stream(Stream, timeout(S)), S, set_stream(Stream, timeout(L)), L).
 
-:- dynamic user:goal_expansion/2.
-:- multifile user:goal_expansion/2.
+:- dynamic system:goal_expansion/2.
+:- multifile system:goal_expansion/2.
 
 :- if(( slowness(Factor), Factor > 1 )).
 
@@ -101,7 +103,7 @@ longer(Goal, Longer) :-
     Seconds >= 5,
     patience(Seconds, More).
 
-user:goal_expansion(Goal, Longer) :-
+system:goal_expansion(Goal, Longer) :-
     longer(Goal, Longer),
     prolog_load_context(source, File),
     sub_atom(File, _, _, _, '/test/').

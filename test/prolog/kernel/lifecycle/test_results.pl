@@ -89,7 +89,7 @@ test(result_is_not_a_fact_of_the_agent, Fs == []) :-
                 facts(A, Fs) )).
 test(result_fails_at_the_timeout, X == late) :-
     virtually(( create([(main :- result(1), sleep(100))], A),
-                ( agent_result(A, X, 99) -> true ; X = late ),
+                ( agent_result(A, X, 99.0) -> true ; X = late ),
                 agent_result(A, 1, 2) )).
 test(result_given_before_disposal, X == 1) :-
     virtually(( create([(main :- result(1), receive(_))], A),
@@ -257,7 +257,7 @@ test(timeout, Os == [timeout,timeout,done]) :-
     virtually(( create([ (main :- clone(V), ( V = clone(_) -> sleep(20)
                                             ; clone(W), ( W = clone(_) -> true
                                             ; receive(_-go) ) )) ], A),
-                agent_join(family(A), Pairs, 10),
+                agent_join(family(A), Pairs, 10.0),
                 agent_send(A, go),
                 agent_join(family(A), Later, 100) )),
     pairs_values(Pairs, Os),
