@@ -132,7 +132,11 @@ may_skip(Unit, TestOptions) :-
 
 skips(blocked(_), _).
 skips(fixme(_), _).
-skips(forall(_), _).
+skips(forall(Cases), Unit) :-
+    fails(Cases, Unit).
 skips(condition(Goal), Unit) :-
+    fails(Goal, Unit).
+
+fails(Goal, Unit) :-
     atom_concat(plunit_, Unit, Module),
     \+ catch(Module:Goal, error(_, _), fail).

@@ -94,11 +94,10 @@ load_parts :-
            use_module(File, [])).
 
 left_out('/typhon/bridges').
-left_out('/typhon/mqtt.pl').
-left_out('/typhon/nxt.pl').
-left_out('/typhon/python.pl').
-left_out('/typhon/ros.pl').
-left_out('/typhon/fipa.pl').
+left_out(Interface) :-                  % of a bridge
+    directory_files('/typhon/prolog/typhon/bridges', Names),
+    member(Name, Names),
+    format(atom(Interface), '/typhon/~w.pl', [Name]).
 left_out('/options/cell').
 left_out('/options/fleet').
 left_out('/options/journal').
