@@ -99,7 +99,7 @@ test(waits_take_virtual_time,
 test(join_times_out_in_virtual_time, true(Outcome-Time == timeout-30.0)) :-
     with_virtual([], N,
                  ( sleeper(N, sleep(100), A),
-                   agent_join(A, Outcome, 30),
+                   agent_join(A, Outcome, 30.0),
                    shows(N, Time) )).
 test(messages_and_orders, true(Got-Ended == [1,2,3]-disposed)) :-
     with_virtual([], N,
