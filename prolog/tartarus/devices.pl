@@ -125,7 +125,7 @@ missing(What) :-
 
 prolog:error_message(existence_error(tartarus_device, What)) -->
     { advice(What, Advice) },
-    [ 'Tartarus: ~w is not reached from here: ~w'-[What, Advice] ].
+    [ 'Tartarus cannot reach ~w from here: ~w'-[What, Advice] ].
 
 advice('I2C', 'read the sensor by python_call/4, or give the platform such a \c
                predicate').

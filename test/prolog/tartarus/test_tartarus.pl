@@ -433,8 +433,8 @@ test(python) :-
                          (functor(E, N, _), writeln(N)))." ],
             ["r:42", "r:5", "process_error"]).
 test(missing_features_are_reported) :-
-    answers([], ["digitalWrite(1, 1)."],
-            ["pins are not reached from here"]).
+    answers([], ["mpu6050(accel, X).", "create_dlg(a, b, c)."],
+            ["cannot reach I2C from here", "cannot reach windows from here"]).
 test(subtitles) :-
     answers([], ["tts_off, subt_on, tts(hello(1)).", "subt_off, tts(bye), \c
                   writeln(silence)."],
