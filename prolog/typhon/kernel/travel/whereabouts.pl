@@ -374,7 +374,7 @@ timed_out(Id, Token) :-
     ).
 
 %   in_doubt(+Id, -Endpoint) is semidet: the connection to the process of Id has
-%   ended, and nobody has connected since, as there was nothing to send.
+%   ended, and was not made again, as there is nothing to send.
 
 in_doubt(Id, Endpoint) :-
     born(Id, Host, _, Process),

@@ -378,9 +378,9 @@ has_lease(Fleet, Endpoint, Token) :-
 
 gives_back(Fleet) :-
     findall([Endpoint,Token], member(Fleet, Endpoint, Token), All),
-    retractall(member(Fleet, _, _)),
-    forall(member(Args, All),
-           engine_script(Fleet, leave, Args, _)).
+    forall(member([Endpoint,Token], All),
+           ( retractall(member(Fleet, Endpoint, Token)),
+             engine_script(Fleet, leave, [Endpoint,Token], _) )).
 
                 /*******************************
                 *        WITHOUT A THREAD      *

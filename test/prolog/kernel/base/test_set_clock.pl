@@ -65,7 +65,7 @@ test(no_agent_is_lost_in_chaos, Results == [[chaos-[done]],[chaos-[done]]]) :-
 
 :- begin_tests(clock_thread).
 
-%   The thread ends by itself in the instant before it is told to.
+%   The thread ends by itself just before monotonic_stop/0 signals it.
 
 test(thread_has_ended_before_it_is_stopped) :-
     monotonic_start,

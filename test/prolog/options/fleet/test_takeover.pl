@@ -247,7 +247,7 @@ test(suspended_process_is_fenced) :-
                           assertion(Status == exit(75)),
                           asked(Agent, 4) ))).
 
-%   It finds in the engine where the stand-in is, at which nobody has listened
+%   The engine has the address of the stand-in, at which no process has listened
 %   before.
 
 test(stand_in_is_reached_by_a_member_that_joins_later, Result == none) :-
