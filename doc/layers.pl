@@ -49,7 +49,7 @@ status 1 if one is exceeded.
 :- use_module(layers/index, [layer_problem/1, write_index/0]).
 :- use_module(layers/kinds, [write_kinds/0]).
 :- use_module(layers/picture).
-:- use_module(layers/tree, [read_tree/0]).
+:- use_module(layers/tree, [read_library/0, read_tree/0]).
 
 :- initialization(main, main).
 
@@ -70,7 +70,7 @@ do(kinds) :-
     read_tree,
     write_kinds.
 do(picture) :-
-    read_tree,
+    read_library,
     picture.
 do(figures) :-
     read_tree,

@@ -10,7 +10,7 @@
 :- use_module('../app/typhon/arguments', [arguments/3]).
 :- use_module(engine/catalogue, [catalogue/1, studies_named/2]).
 :- use_module('../app/typhon/engine_options', [engine_options/3]).
-:- use_module(engine/commands, [run_command/5]).
+:- use_module(engine/commands, [print_commands/2]).
 :- use_module(engine/estimate, [longest_first/2]).
 :- use_module(engine/figures, [figures/3]).
 :- use_module(engine/machines, [beside_machines/2]).
@@ -159,9 +159,7 @@ print_help(Study) :-
 perform(Plans, Options) :-
     option(list(true), Options),
     !,
-    forall(planned(Plans, Options, N, run(Study, _, Seed)),
-           ( run_command(Study, N, Seed, Options, Text),
-             format('~w~n', [Text]) )).
+    print_commands(planned_run(Plans, Options), Options).
 perform(Plans, Options) :-
     option(case(Text), Options),
     !,
@@ -192,6 +190,9 @@ perform(Plans, Options) :-
     make_real(Plans, Root, Options, RealFailed),
     figures(Plans, Options, Missing),
     halt_unless_none(Failed + Missing + RealFailed).
+
+planned_run(Plans, Options, N, Study, Seed) :-
+    planned(Plans, Options, N, run(Study, _, Seed)).
 
 live_page(Study, Port) :-
     page_serve([port(Port), overlays([Study]), model(study_live:live(Study))],

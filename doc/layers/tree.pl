@@ -1,5 +1,6 @@
 :- module(layers_tree,
           [ read_tree/0,
+            read_library/0,
             tree_file/1,        % -File
             module_of/2,        % ?File, ?Module
             export/2,           % ?File, ?PI
@@ -76,10 +77,19 @@ read_tree :-
     style_check(-singleton),
     forall(tree_file(File), read_source(File)).
 
+%   What the library alone needs: prolog/.
+
+read_library :-
+    style_check(-singleton),
+    forall(file_below(prolog, File), read_source(File)).
+
 tree_file(File) :-
-    root(Root),
     member(Top, [prolog, app, agents, payloads, examples, experiments, test,
                  bench, doc]),
+    file_below(Top, File).
+
+file_below(Top, File) :-
+    root(Root),
     directory_file_path(Root, Top, Dir),
     directory_member(Dir, File, [recursive(true), extensions([pl])]).
 

@@ -146,12 +146,12 @@ in_folder(Name, File) :-
     file_directory_name(File, Directory),
     file_base_name(Directory, Name).
 
-%   5.6 is in figure_5_6.pl, 6.1 in table_6_1.pl: nothing else needs to be
+%   5.6 is in figure_5_6.pl, solar in study_solar.pl: nothing else needs to be
 %   loaded.
 
 by_name(Name, File) :-
     atomic_list_concat(Parts, '.', Name),
-    member(Kind, [figure, table]),
+    member(Kind, [figure, table, beyond, study]),
     atomic_list_concat([Kind|Parts], '_', Base),
     file_base_name(File, FileBase),
     file_name_extension(Base, pl, FileBase).

@@ -1,29 +1,37 @@
 :- module(study_commands,
-          [ run_command/5,              % +Study, +N, +Seed, +Options, -Text
+          [ print_commands/2,           % :Run, +Options
             again_command/3             % +Study, +Options, -Text
           ]).
 :- use_module(library(apply), [maplist/3]).
-:- use_module(library(lists), [append/2, member/2, memberchk/2]).
+:- use_module(library(lists),
+              [append/2, append/3, member/2, memberchk/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(plan, [out_directory/2]).
+
+:- meta_predicate print_commands(3, +).
 
 /** <module> Shell commands that repeat runs
 
 *Threading*: no state; any thread.
 */
 
-%!  run_command(+Study, +N, +Seed, +Options, -Text:atom) is det.
+%!  print_commands(:Run, +Options) is det.
 %
-%   Text makes one run, of the case with the number N, from any directory.
+%   Prints a command for each solution of call(Run, N, Study, Seed): it makes
+%   one run, of the case with the number N, from any directory.
 
-run_command(Study, N, Seed, Options, Text) :-
+print_commands(Run, Options) :-
     script(Script),
     prolog(Swipl),
     out_directory(Options, Out),
+    command_text([Swipl, Script, '--'], Begin),
     findall(Argument, repeated(Options, Argument), More),
-    append([ [Swipl, Script, '--', Study, '--case', N, '--seed', Seed],
-             More, ['--out', Out] ], Words),
-    command_text(Words, Text).
+    append(More, ['--out', Out], Words),
+    command_text(Words, End),
+    forall(call(Run, N, Study, Seed),
+           ( command_text([Study], File),
+             format('~w ~w --case ~w --seed ~w ~w~n',
+                    [Begin, File, N, Seed, End]) )).
 
 %!  again_command(+Study, +Options, -Text:atom) is det.
 %
