@@ -22,7 +22,7 @@ inherit its blocked signals, SIGINT for one.
 :- use_module('lib/common', [project_file/2, wait_until/2, with_tmp_dir/1]).
 :- use_module('lib/left_behind',
               [ kill_all_left_behind/0, kill_left_behind/2, suite_mark/2 ]).
-:- use_module('lib/quick_swipl', [quick_swipl/2]).
+:- use_module('lib/quick_swipl', [quick_swipl/3]).
 :- use_module('lib/slowness', [measure_slowness/0, patience/2]).
 :- use_module('lib/suites',
               [all_suites/1, left_out_suites/2, suite_name/2, suite_named/2]).
@@ -122,8 +122,21 @@ terminated(_) :-
     halt(143).
 
 run_suites(Files, Suites, Dir) :-
-    quick_swipl(Dir, Quick),
-    run_suites(Files, [], Suites, by(Quick, Dir)).
+    quick_swipl(quick_start, Dir, Quick),
+    study_swipl(Files, Dir, Quick, Study),
+    run_suites(Files, [], Suites, by(quick(Quick, Study), Dir)).
+
+study_swipl(Files, Dir, _, Study) :-
+    member(File, Files),
+    of_studies(File),
+    !,
+    directory_file_path(Dir, studies, StudyDir),
+    make_directory(StudyDir),
+    quick_swipl(quick_study, StudyDir, Study).
+study_swipl(_, _, Quick, Quick).
+
+of_studies(File) :-
+    sub_atom(File, _, _, _, '/test/experiments/').
 
 %   run_suites(+Files, +Jobs, -Suites, +By): Jobs are running now.
 
@@ -270,7 +283,7 @@ ports(Place, Ports) :-
     First is 10000+(Place-1)*Count,
     term_to_atom(First+Count, Ports).
 
-start_suite(File, by(Quick, Dir), Place,
+start_suite(File, by(quick(Quick, Study), Dir), Place,
             job(File, Mark, Log, Results, Pid, Start, Place)) :-
     get_time(Start),
     ports(Place, Ports),
@@ -280,7 +293,7 @@ start_suite(File, by(Quick, Dir), Place,
     file_name_extension(Log, results, Results),
     file_name_extension(Log, cookie, Cookie),   % not that of other suites
     project_file('test/suite.pl', Runner),
-    runs(File, Quick, Swipl),
+    runs(File, quick(Quick, Study), Swipl),
     setup_call_cleanup(
         open(Log, write, Out),
         suite_process(Swipl,
@@ -297,7 +310,10 @@ runs(File, _, Swipl) :-
     plain(Name),
     !,
     current_prolog_flag(executable, Swipl).
-runs(_, Quick, Quick).
+runs(File, quick(_, Study), Study) :-
+    of_studies(File),
+    !.
+runs(_, quick(Quick, _), Quick).
 
 suite_process(Swipl, Args, Out, Environment, Pid) :-
     project_file('.', Root),
