@@ -18,8 +18,8 @@ test(power_failure_loses_no_acknowledged_commit, Wrong == []) :-
                             crash(0), power(0.1), most(6) ], Wrong)).
 
 test(hops_among_three_processes_lose_and_duplicate_no_agent, Wrong == []) :-
-    with_tmp_dir(attacked([ processes(3), agents(100), hops(30),
-                            crash(0.0001), kill(1.5), most(20) ],
+    with_tmp_dir(attacked([ processes(3), agents(60), hops(30),
+                            crash(0.0001), kill(1.5), most(12) ],
                           Wrong)).
 
 %   No process is killed here, so each has to commit again by itself.
@@ -43,7 +43,7 @@ test(stopped_hosts_lose_and_duplicate_no_agent, Wrong == []) :-
 %   The same with journals in the engine of a fleet, which has faults, too.
 
 test(journals_in_an_engine_lose_and_duplicate_no_agent, Wrong == []) :-
-    with_tmp_dir(attacked([ fleet(true), processes(3), agents(20), hops(100),
+    with_tmp_dir(attacked([ fleet(true), processes(3), agents(15), hops(60),
                             crash(0.0002), kill(0.4),
                             faults([ kill, kill_all, stop, cut, engine_kill,
                                      engine_stop, usurp ]), most(12) ],
@@ -52,7 +52,7 @@ test(journals_in_an_engine_lose_and_duplicate_no_agent, Wrong == []) :-
 %   An engine that is empty has nothing of a process that ends meanwhile.
 
 test(emptied_engine_loses_no_agent_of_processes_that_live, Wrong == []) :-
-    with_tmp_dir(attacked([ fleet(true), processes(3), agents(10), hops(100),
+    with_tmp_dir(attacked([ fleet(true), processes(3), agents(10), hops(60),
                             crash(0), kill(0.4),
                             faults([engine_empty, engine_kill, stop, cut]),
                             most(8) ], Wrong)).

@@ -99,12 +99,19 @@ log_of(File, Given, Seed, Text, Dir) :-
 :- meta_predicate beside(+, 0).
 
 beside(Count, Goal) :-
+    bursts(Bursts),
     setup_call_cleanup(
         findall(Pid,
                 ( between(1, Count, _),
-                  process_create(path(sh), ['-c', 'while :; do :; done'],
-                                 [process(Pid)]) ),
+                  process_create(path(sh), ['-c', Bursts], [process(Pid)]) ),
                 Pids),
         once(Goal),
         forall(member(Pid, Pids),
                ( process_kill(Pid, kill), process_wait(Pid, _) ))).
+
+%   A process that wants a processor again and again.
+
+bursts('while sleep 0.05; do
+            i=0
+            while [ $i -lt 20000 ]; do i=$((i+1)); done
+        done').
