@@ -6,27 +6,36 @@
 :- use_module('../../app/packaging/parts', [part/3]).
 :- use_module('../../doc/layers/parts', [parts_problem/1]).
 :- use_module('../lib/common').
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex),
               [delete_directory_and_contents/1, directory_file_path/3]).
-:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(lists), [append/3, member/2, nth1/3, subtract/3]).
+:- use_module(library(pairs), [pairs_keys/2]).
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_create/3]).
 
-%   without(+Parts, :Goal): call(Goal, Dir), Dir being a copy of the tree, as
-%   far as programs need it, without Parts.
+%   without(+Parts, -Dir): Dir is a copy of the tree, as far as programs need it,
+%   without Parts, made once.
 
-:- meta_predicate without(+, 1).
+:- dynamic made/2.
 
-without(Parts, Goal) :-
-    with_tmp_dir(Dir,
-        ( project_file('.', Root),
-          process_create(path(cp),
-                         ['-r', prolog, app, bridges, payloads, 'pack.pl', Dir],
-                         [cwd(Root)]),
-          forall(( member(Part, Parts), part(Part, _, Paths),
-                   member(Path, Paths) ),
-                 remove(Dir, Path)),
-          call(Goal, Dir) )).
+without(Parts, Dir) :-
+    made(Parts, Dir),
+    !.
+without(Parts, Dir) :-
+    tmp_file(parts, Dir),
+    make_directory(Dir),
+    assertz(made(Parts, Dir)),
+    project_file('.', Root),
+    process_create(path(cp),
+                   ['-r', prolog, app, bridges, payloads, 'pack.pl', Dir],
+                   [cwd(Root)]),
+    forall(( member(Part, Parts), part(Part, _, Paths), member(Path, Paths) ),
+           remove(Dir, Path)).
+
+drop_trees :-
+    forall(retract(made(_, Dir)), delete_directory_and_contents(Dir)).
 
 remove(Dir, Path) :-
     directory_file_path(Dir, Path, File),
@@ -37,17 +46,27 @@ remove(Dir, Path) :-
     ;   true
     ).
 
-%   says(+Goals, +Dir, -Status, -Lines): what a process with the library of Dir
-%   prints of errors.
+%   says(+Goals, +Dir, -Status, -Printed): for each of Goals the lines of errors
+%   that one process with the library of Dir prints.
 
-says(Goals, Dir, Status, Lines) :-
+says(Goals, Dir, Status, Printed) :-
     directory_file_path(Dir, prolog, Library),
     atom_concat('library=', Library, Path),
-    findall(Arg, ( member(Goal, Goals), member(Arg, ['-g', Goal]) ), Args),
+    findall(Arg, ( member(Goal, Goals), goal_arg(Goal, Arg) ), Args),
     append(['-p', Path|Args], ['-t', halt], All),
     run_swipl(All, [timeout(120), cwd(Dir)], Status, _, Err),
-    split_string(Err, "\n", "\n", Lines0),
-    ( Lines0 == [""] -> Lines = [] ; Lines = Lines0 ).
+    atomic_list_concat([Before|Texts], '@@\n', Err),
+    assertion(Before == ''),
+    maplist(nonempty_lines, Texts, Printed).
+
+goal_arg(Goal, Arg) :-
+    format(atom(Marked), 'format(user_error,"@@~~n",[]),\c
+                          catch((~w),E,print_message(error,E))', [Goal]),
+    member(Arg, ['-g', Marked]).
+
+nonempty_lines(Text, Lines) :-
+    split_string(Text, "\n", "\n", Lines0),
+    subtract(Lines0, [""], Lines).
 
 absent(Name, Line) :-
     format(string(End), "~w is not part of this installation: \c
@@ -85,62 +104,42 @@ command(replay, [page, log, '--export=page.html'], replay).
 command(postgresql, [host, a, '--journal=postgresql://localhost'],
         postgresql).
 
-shown(Goal, Text) :-
-    format(atom(Text),
-           'use_module(library(typhon)),host_start(a),\c
-            catch((~w),E,(print_message(error,E)))', [Goal]).
+:- begin_tests(parts, [cleanup(drop_trees)]).
 
-:- begin_tests(parts).
+%   Of all goals in one process: the first three print nothing.
 
-test(without_a_part_the_library_loads_silently,
-     [forall(product(Part)), Status-Lines == exit(0)-[]]) :-
-    without([Part], loads(Status, Lines)).
-
-loads(Status, Lines, Dir) :-
+test(library_loads_silently_and_errors_name_what_is_left_out,
+     [forall(product(Part)), Silent-Others == [[], [], []]-[]]) :-
+    without([Part], Dir),
+    findall(Goal-Name, ( use(Part, Goal, Name) ; loads(Part, Goal, Name) ),
+            Tried),
+    pairs_keys(Tried, Goals),
     says(['use_module(library(typhon))', 'host_start(a)',
           'agent_create(clauses([(:-agent(x,[])),main]),A),\c
-           agent_join(A,done,20)'],
-         Dir, Status, Lines).
-
-test(use_names_what_is_left_out,
-     [ forall(product(Part)), Others == [] ]) :-
-    without([Part], uses(Part, Others)).
-
-uses(Part, Others, Dir) :-
+           agent_join(A,done,20)'
+         | Goals],
+         Dir, exit(0), [A, B, C|Printed]),
+    Silent = [A, B, C],
     findall(Goal-Lines,
-            ( use(Part, Goal, Name),
-              shown(Goal, Shown),
-              says([Shown], Dir, _, Lines),
+            ( nth1(N, Tried, Goal-Name),
+              nth1(N, Printed, Lines),
               \+ ( member(Line, Lines), absent(Name, Line) ) ),
-            Others).
-
-test(library_names_itself,
-     [ forall(product(Part)), Others == [] ]) :-
-    without([Part], library_alone(Part, Others)).
-
-library_alone(Part, Others, Dir) :-
-    part(Part, Libraries, _),
-    findall(Library-Lines,
-            ( member(File, Libraries),
-              atom_concat('prolog/', Base, File),
-              file_name_extension(Library, pl, Base),
-              format(atom(Load), 'use_module(library(~w))', [Library]),
-              says([Load], Dir, _, Lines),
-              \+ names_itself(Part, Library, Lines) ),
             Others).
 
 %   library(typhon/nxt) works without its old names.
 
-names_itself(tartarus, 'typhon/nxt', []) :- !.
-names_itself(_, Library, [_, Line]) :-
+loads(Part, Goal, Name) :-
+    part(Part, Libraries, _),
+    member(File, Libraries),
+    atom_concat('prolog/', Base, File),
+    file_name_extension(Library, pl, Base),
+    Part-Library \== tartarus-'typhon/nxt',
     format(atom(Name), 'library(~w)', [Library]),
-    absent(Name, Line).
+    format(atom(Goal), 'use_module(~w,[])', [Name]).
 
 test(commands_name_what_is_left_out,
      [ forall(product(Part)), Others == [] ]) :-
-    without([Part], commands(Part, Others)).
-
-commands(Part, Others, Dir) :-
+    without([Part], Dir),
     directory_file_path(Dir, 'app/typhon.pl', App),
     findall(Args-Status-Err,
             ( command(Part, Args, Name),
@@ -152,9 +151,7 @@ commands(Part, Others, Dir) :-
 
 test(core_is_compiled_silently, Status-Out-Err == exit(0)-""-"") :-
     findall(Part, product(Part), Parts),
-    without(Parts, compiled(Status, Out, Err)).
-
-compiled(Status, Out, Err, Dir) :-
+    without(Parts, Dir),
     directory_file_path(Dir, 'app/typhon/compile.pl', Program),
     run_swipl([Program], [timeout(120)], Status, Out, Err).
 
