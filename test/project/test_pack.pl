@@ -81,16 +81,17 @@ make_program(Dir, Folder, Name) :-
     directory_file_path(Path, Base, File),
     write_file(File, ':- agent(~q, []).~nmain.~n', [Name]).
 
-%   archive(+Create, +Archive): Create are the options of tar.
+%   archive(+Create, +Archive): Create are the options of tar. A pack runs without
+%   documents and tests.
 
 archive(Create, Archive) :-
     project_file('.', Root),
     named(typhon, '', Name),
     format(atom(Transform), 's,^\\.,~w,', [Name]),
     process_create(path(tar),
-                   [ '--exclude=./.git', '--exclude=./out',
-                     '--transform', Transform,
-                     Create, Archive, '-C', Root, '.'
+                   [ '--exclude=./.git', '--exclude=./out', '--exclude=./doc',
+                     '--exclude=./test', '--transform', Transform, Create,
+                     Archive, '-C', Root, '.'
                    ], []).
 
 %   A copy of the tree: since SWI-Prolog 9.3 an installation writes notes into
@@ -117,12 +118,6 @@ test(directory) :-
     with_tmp_dir(Home,
         ( copied(Home, Root),
           install('.', [], Home, Root),
-          works(Home) )).
-test(directory_url) :-
-    with_tmp_dir(Home,
-        ( copied(Home, Root),
-          atom_concat('file://', Root, URL),
-          install(URL, [], Home, Home),
           works(Home) )).
 test(archive_url) :-
     with_tmp_dir(Home,
