@@ -28,14 +28,14 @@
             offered/3           % +Module, +List, ?PI
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(apply), [foldl/4]).
 :- use_module(library(prolog_code), [comma_list/2]).
 :- use_module(library(filesex),
               [directory_file_path/3, directory_member/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(occurs), [sub_term/2]).
+:- use_module(library(operators), [push_op/3]).
 :- use_module(library(prolog_source),
-              [ prolog_close_source/1, prolog_open_source/2,
-                prolog_read_source_term/4 ]).
+              [prolog_close_source/1, prolog_open_source/2]).
 
 /** <module> The files of the tree, read as facts
 
@@ -102,8 +102,8 @@ read_source(File) :-
 
 read_terms(In, File) :-
     repeat,
-    prolog_read_source_term(In, Term, _, [ term_position(Position),
-                                           syntax_errors(error) ]),
+    read_term(In, Term, [ module(user), term_position(Position),
+                          syntax_errors(error) ]),
     (   Term == end_of_file
     ->  !
     ;   stream_position_data(line_count, Position, First),
@@ -114,13 +114,15 @@ read_terms(In, File) :-
 
 note((:- Directive), File, _, _) :-
     !,
+    note_operators(Directive),
     note_directive(Directive, File).
 note(Clause, File, First, Last) :-
-    note_names(Clause, File),
-    term_nodes(Clause, Nodes),
+    phrase(parts(Clause), Parts),
+    note_names_of(Parts, File),
+    length(Parts, Nodes),
     assertz(nodes(File, Nodes)),
     note_pauses(Clause, File),
-    note_waits(Clause, File),
+    note_waits(Parts, File),
     (   clause_head(Clause, Module:Head)
     ->  functor(Head, Name, Arity),
         assertz(defines(File, Module:Name/Arity)),
@@ -131,8 +133,30 @@ note(Clause, File, First, Last) :-
     ;   true
     ).
 
-term_nodes(Term, Nodes) :-
-    aggregate_all(count, sub_term(_, Term), Nodes).
+%   parts(+Term)//: all terms in Term.
+
+parts(Term) -->
+    [Term],
+    (   { compound(Term),
+          compound_name_arguments(Term, _, Args) }
+    ->  foldl(parts, Args)
+    ;   []
+    ).
+
+%   Operators hold up to the end of the file. Library(xpath) is the only one
+%   whose operators the tree uses.
+
+note_operators(op(Priority, Type, Names)) :-
+    !,
+    ( is_list(Names) -> List = Names ; List = [Names] ),
+    forall(member(Name, List), push_op(Priority, Type, user:Name)).
+note_operators(use_module(library(xpath))) :-
+    !,
+    use_module(library(xpath), []),
+    module_property(xpath, exported_operators(Operators)),
+    forall(member(op(Priority, Type, Name), Operators),
+           push_op(Priority, Type, user:Name)).
+note_operators(_).
 
 %   The goals sleep(_) of control structures are pauses. A clause inside a
 %   clause is one of an agent, which does not occupy a thread while it sleeps.
@@ -155,8 +179,8 @@ pause_in(Term, Around) :-
         pause_in(Part, Term)
     ).
 
-note_waits(Clause, File) :-
-    (   sub_term(Term, Clause),
+note_waits(Parts, File) :-
+    (   member(Term, Parts),
         is_timed(Term),
         \+ waits_by_day(File)
     ->  assertz(waits_by_day(File))
@@ -278,9 +302,15 @@ target(Spec, File, Target) :-
 target(Spec, _, Spec).
 
 note_names(Term, File) :-
-    forall(( sub_term(Part, Term), name_in(Part, Name) ),
-           ( mentions(File, Name) -> true ; assertz(mentions(File, Name)) )),
-    forall(( sub_term(Part, Term), reach(Part, Module, PI) ),
+    phrase(parts(Term), Parts),
+    note_names_of(Parts, File).
+
+note_names_of(Parts, File) :-
+    findall(Name, ( member(Part, Parts), name_in(Part, Name) ), Names0),
+    sort(Names0, Names),
+    forall(( member(Name, Names), \+ mentions(File, Name) ),
+           assertz(mentions(File, Name))),
+    forall(( member(Part, Parts), reach(Part, Module, PI) ),
            assertz(reaches(File, Module, PI))).
 
 name_in(Part, Part) :-
