@@ -4,11 +4,11 @@
               [block_write/2, blocks/2, document/1]).
 :- use_module('../lib/texts', [write_file/3]).
 :- use_module('../lib/transcript', [session_steps/2]).
-:- use_module(library(apply), [include/3, maplist/2]).
+:- use_module(library(apply), [include/3, maplist/2, maplist/3]).
 :- use_module(library(filesex),
               [ copy_file/2, delete_directory_and_contents/1,
                 directory_file_path/3, make_directory_path/1 ]).
-:- use_module(library(lists), [append/3, member/2, memberchk/2]).
+:- use_module(library(lists), [append/3, member/2, memberchk/2, subtract/3]).
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
@@ -18,35 +18,22 @@
 /** <module> Programs in virtual time give the same logs in WebAssembly
 
 The sessions of each document that uses virtual time, and one of each mechanism,
-are played twice, by this Prolog and by one from the saved state of the
-playground, see lib/wasm/play.pl.  Answers and logs are compared byte by byte.
+are played twice, one after the other, by this Prolog and by one from the saved
+state of the playground, see lib/wasm/play.pl.  Answers and logs are compared byte
+by byte.
 
 *Threading*: the main thread.
 */
 
-:- dynamic state/1.                     % Directory with the file `state`
+:- dynamic folder/1.                    % with the folders `native` and `wasm`
 
-save_state :-
-    tmp_file(playground, Dir),
-    make_directory_path(Dir),
-    directory_file_path(Dir, state, State),
-    project_file('app/playground/state.js', Script),
-    node([Script, State]),
-    assertz(state(Dir)).
+drop_folder :-
+    forall(retract(folder(Dir)), delete_directory_and_contents(Dir)).
 
-drop_state :-
-    forall(retract(state(Dir)), delete_directory_and_contents(Dir)).
+:- begin_tests(playground, [setup(play_all), cleanup(drop_folder)]).
 
-:- begin_tests(playground, [setup(save_state), cleanup(drop_state)]).
-
-test(same_bytes, [forall(virtual_document(File, Blocks)),
-                  Different-File == []-File]) :-
-    in_both(document(Blocks), Different).
-test(same_mechanism, [forall(member(Name, [ synchronisation, population,
-                                            allocation, learning,
-                                            hierarchy ])),
-                      Different-Name == []-Name]) :-
-    in_both(mechanism(Name), Different).
+test(same_bytes, [forall(played(_, File)), Different-File == []-File]) :-
+    different(File, Different).
 
 :- end_tests(playground).
 
@@ -60,28 +47,33 @@ virtual_document(Path, Blocks) :-
            sub_string(Line, _, _, _, "clock(virtual)") )),
     memberchk(block("prolog-session", _, _), Blocks).
 
-in_both(What, Different) :-
-    state(Root),
-    with_tmp_dir(Dir, played(Dir, Root, What, Different)).
+%   Both play in folders of the same names, as logs hold names of files.
 
-%   Both play in a folder of the same name, as logs hold names of files.
-
-played(Dir, Root, What, Different) :-
-    directory_file_path(Dir, native, Native),
-    directory_file_path(Dir, fresh, Fresh),
-    directory_file_path(Dir, wasm, Wasm),
-    prepare(What, Native),
-    prepare(What, Fresh),
+play_all :-
+    tmp_file(playground, Dir),
+    assertz(folder(Dir)),
+    maplist(directory_file_path(Dir), [native, fresh, wasm, state],
+            [Native, Fresh, Wasm, State]),
+    maplist(make_directory_path, [Native, Fresh]),
+    forall(( member(Top, [Native, Fresh]), played(What, File) ),
+           ( file_base_name(File, Base),
+             directory_file_path(Top, Base, Folder),
+             prepare(What, Folder) )),
     play_here(Native),
-    directory_file_path(Root, state, State),
-    project_file('test/lib/wasm/play.js', Script),
-    node([Script, State, Fresh, Native, Wasm]),
-    different(Native, Wasm, Different).
+    project_file('app/playground/state.js', Saves),
+    project_file('test/lib/wasm/play.js', Plays),
+    node([Saves, State]),
+    node([Plays, State, Fresh, Native, Wasm]).
 
-prepare(mechanism(Name), Dir) :-
+played(document(Blocks), File) :-
+    virtual_document(File, Blocks).
+played(mechanism(File), File) :-
+    project_file('test/lib/wasm/mechanisms/*.pl', Pattern),
+    expand_file_name(Pattern, Files),
+    member(File, Files).
+
+prepare(mechanism(File), Dir) :-
     make_directory_path(Dir),
-    atomic_list_concat(['test/lib/wasm/mechanisms/', Name, '.pl'], Path),
-    project_file(Path, File),
     directory_file_path(Dir, 'session.pl', Session),
     copy_file(File, Session).
 prepare(document(Blocks), Dir) :-
@@ -100,25 +92,35 @@ play_here(Dir) :-
     project_file('test/lib/wasm/play.pl', Play),
     project_file(prolog, Library),
     atom_concat('library=', Library, Path),
+    directory_files(Dir, Names0),
+    subtract(Names0, ['.', '..'], Names1),
+    sort(Names1, Names),
+    findall(Arg, ( member(Name, Names),
+                   format(atom(Goal), 'play(\'~w/~w\')', [Dir, Name]),
+                   member(Arg, ['-g', Goal]) ),
+            Goals),
+    append(['-p', Path|Goals], ['-t', halt, Play], Args),
     current_prolog_flag(executable, Swipl),
-    run(Swipl, [ '-p', Path, '-g', 'play(\'session.pl\')', '-t', halt, Play ],
-        [cwd(Dir)], exit(0)).
+    run(Swipl, Args).
 
 %   Optimising WebAssembly takes longer than it saves in a short run.
 
 node(Args) :-
-    run(path(node), ['--liftoff-only'|Args], [], exit(0)).
+    run(path(node), ['--liftoff-only'|Args]).
 
-run(Program, Args, Options, Status) :-
+run(Program, Args) :-
     process_create(Program, Args,
-                   [ stdin(null), stdout(null), stderr(null), process(Pid)
-                   | Options ]),
-    process_wait(Pid, Status).
+                   [stdin(null), stdout(null), stderr(null), process(Pid)]),
+    process_wait(Pid, exit(0)).
 
 %   Different are the names of files that only one has, and of answers and logs
 %   that are not the same.
 
-different(Native, Wasm, Different) :-
+different(File, Different) :-
+    folder(Dir),
+    file_base_name(File, Base),
+    atomic_list_concat([Dir, native, Base], /, Native),
+    atomic_list_concat([Dir, wasm, Base], /, Wasm),
     directory_files(Native, Names1),
     directory_files(Wasm, Names2),
     append(Names1, Names2, All),

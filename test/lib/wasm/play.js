@@ -1,4 +1,4 @@
-// node play.js STATE FROM FOLDER TO: answers the queries in the folder FROM as
+// node play.js STATE FROM FOLDER TO: answers the queries in the folders of FROM as
 // play.pl does, in a process from the saved STATE, where FROM has the name FOLDER,
 // and writes its files to TO.
 
@@ -32,8 +32,9 @@ boot(fs.readFileSync(state), console.log, console.error)
     mount(Module, [...sources('agents'), ...sources('payloads'),
       'test/lib/wasm/play.pl']);
     copy(Module.FS, from, folder);
-    succeed(Module, "consult('/typhon/test/lib/wasm/play.pl'), " +
-      `working_directory(_, '${folder}'), play('session.pl')`);
+    succeed(Module, "consult('/typhon/test/lib/wasm/play.pl')");
+    for (const name of fs.readdirSync(from).sort())
+      succeed(Module, `play('${folder}/${name}')`);
     save(Module.FS, folder, to);
   })
   .catch((error) => {

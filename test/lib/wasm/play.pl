@@ -3,15 +3,14 @@
 :- use_module(library(typhon), except([network_start/3])).
 :- use_module(library(typhon/network), []).
 
-/*  play(File) answers the queries in File, one after the other, and writes what
-    they answer into the file `answers`.  Networks are written to logs.  Natively
-    and in WebAssembly all files are the same then, see test_played.pl. */
+/*  play(Folder) answers the queries in its file session.pl, one after the other,
+    and writes what they answer into the file `answers`.  Networks are written to
+    logs.  Natively and in WebAssembly all files are the same then, see
+    test_playground.pl. */
 
 :- dynamic
     known/2,                            % Name, Value: of $Name
     count/1.                            % networks
-
-count(0).
 
 %   As the library's, with a seed and a log.
 
@@ -35,10 +34,14 @@ with_log(Options, [log(File, Kinds)|Options]) :-
     assertz(count(N1)),
     atomic_list_concat([network, N, '.log'], File).
 
-play(File) :-
+play(Folder) :-
+    working_directory(_, Folder),
     set_random(seed(1)),
+    retractall(known(_, _)),
+    retractall(count(_)),
+    assertz(count(0)),
     setup_call_cleanup(
-        ( open(File, read, In, [encoding(utf8)]),
+        ( open('session.pl', read, In, [encoding(utf8)]),
           open(answers, write, Out, [encoding(utf8)]) ),
         with_output(Out, play_all(In)),
         ( close(In),
