@@ -67,6 +67,7 @@ suite_deadline(Seconds) :-
 plain(pack).
 plain(parts).
 plain(shell).
+plain(search).
 plain(site).
 plain(child_output).
 plain(locale).
@@ -300,7 +301,7 @@ start_suite(File, by(quick(Quick, Study), Dir), Place,
                       [ '--on-error=print', '--on-warning=print',
                         Runner, '--', File, Results
                       ], Out,
-                      [ 'TYPHON_SUITE'=Mark, 'TYPHON_QUICK'=Quick,
+                      [ 'TYPHON_SUITE'=Mark, 'TYPHON_QUICK'=Quick, 'TYPHON_RUN'=Dir,
                         'TYPHON_COOKIE_FILE'=Cookie, 'TYPHON_PORTS'=Ports ],
                       Pid),
         close(Out)).

@@ -10,8 +10,8 @@
 
 :- use_module(browser).
 :- use_module(common, [project_file/2]).
+:- use_module(made_once, [made_once/3]).
 :- use_module(library(debug), [assertion/1]).
-:- use_module(library(filesex), [delete_directory_and_contents/1]).
 :- use_module(library(http/http_dispatch), [http_reply_file/3]).
 :- use_module(library(http/thread_httpd), [http_server/2, http_stop_server/2]).
 :- use_module(library(lists), [append/3, memberchk/2]).
@@ -21,8 +21,7 @@
     with_playground(-, -, 0),
     failing(2, -).
 
-built(Dir) :-
-    tmp_file(playground, Dir),
+build(Dir) :-
     project_file('app/playground/build.js', Script),
     process_create(path(node), ['--liftoff-only', Script, Dir],
                    [ stdout(null), stderr(pipe(Err)), process(Pid) ]),
@@ -45,15 +44,13 @@ reply(Dir, Request) :-
 
 with_playground(Dir, Address, Goal) :-
     setup_call_cleanup(
-        built(Dir),
-        setup_call_cleanup(
-            http_server(test_playground_scenes:reply(Dir),
-                        [ port(localhost:Port), workers(4),
-                          keep_alive_timeout(0.5) ]),
-            ( format(atom(Address), 'http://localhost:~w/', [Port]),
-              once(Goal) ),
-            catch(http_stop_server(Port, []), error(_, _), true)),
-        delete_directory_and_contents(Dir)).
+        ( made_once(playground, build, Dir),
+          http_server(test_playground_scenes:reply(Dir),
+                      [ port(localhost:Port), workers(4),
+                        keep_alive_timeout(0.5) ]) ),
+        ( format(atom(Address), 'http://localhost:~w/', [Port]),
+          once(Goal) ),
+        catch(http_stop_server(Port, []), error(_, _), true)).
 
 %!  failing(:With, -Names:list) is det.
 %
