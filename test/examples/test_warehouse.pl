@@ -123,7 +123,7 @@ scene(Options, Log, Network, Goal) :-
 
 all_delivered(Options, Log) :-
     scene(Options, Log, Network,
-          ( network_advance(Network, 300),
+          ( network_advance(Network, 180),
             scene_orders(Delivered, 0, 0, 0),
             assertion(Delivered == 2) )).
 
@@ -198,7 +198,7 @@ test(broken_robot_is_replaced) :-
 replaced(Dir) :-
     directory_file_path(Dir, 'log.pl', Log),
     scene([robots(4), pallets(0), beams(1), breaks(20)], Log, Network,
-          ( network_advance(Network, 500),
+          ( network_advance(Network, 250),
             scene_orders(Delivered, Waiting, Underway, Falls),
             assertion([Delivered, Waiting, Underway] == [1, 0, 0]),
             assertion(Falls =< 1) )),
