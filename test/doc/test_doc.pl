@@ -307,11 +307,12 @@ shown_elsewhere(File) :-
     project_file(Document, File),
     \+ installed(Part).
 
-%   README.md is typed at all terminals, every other document at one of them.
+%   README.md is typed at the narrowest terminal and at the widest, every other
+%   document at one of all.
 
-document_at(File, Terminal) :-
+document_at(File, terminal(Columns, Colour)) :-
     project_file('README.md', File),
-    terminal(Terminal).
+    member(Columns-Colour, [60-true, 132-false]).
 document_at(File, Terminal) :-
     findall(Document, other_document(Document), Documents),
     findall(One, terminal(One), Terminals),
