@@ -552,9 +552,16 @@ text_goal(Text, Goal) :-
     between(1, Arity, I),
     given(Text, Given),
     arg(I, Goal, Given),
-    member(Value, ["x", 0, _]),
-    between(1, Arity, Free),
+    others(Arity, I, Free, Value),
     forall_args(1, Arity, I, Free, Value, Goal).
+
+%   others(+Arity, +I, -Free, -Value): each other argument is Value, but Free.
+
+others(_, I, I, _).
+others(Arity, I, Free, Value) :-
+    member(Value, ["x", 0]),
+    between(1, Arity, Free),
+    once(( Free == I ; Arity > 2 )).
 
 forall_args(N, Arity, _, _, _, _) :-
     N > Arity,
@@ -571,7 +578,7 @@ forall_args(N, Arity, I, Free, Value, Goal) :-
 long_atom(Goal) :-
     long_text(1200, Text),
     text_goal(Text, Goal),
-    catch(call_with_inference_limit(once(typhon_vocabulary:Goal), 20 000, _),
+    catch(call_with_inference_limit(once(typhon_vocabulary:Goal), 10 000, _),
           error(_, _), fail),
     has_long_atom(Goal).
 
@@ -646,7 +653,7 @@ test(no_predicate_makes_long_atoms, Goals == []) :-
 test(text_of_atoms_counts,
      [forall(holding(What, Clauses)), true(Passed == What)]) :-
     with_hosts([g-[ policy(guarded), cell(none),
-                    quota([ seconds(60), stack(16 000 000), state(1 000 000),
+                    quota([ seconds(60), stack(4 000 000), state(100 000),
                             log(1000) ]) ]],
                capturing(outcome(Clauses, Outcome), _)),
     Outcome = raised(error(resource_error(Passed), _)).
