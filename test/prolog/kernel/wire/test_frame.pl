@@ -161,7 +161,7 @@ test(atoms_of_large_terms_survive_collection,
     readers(File),
     current_prolog_flag(executable, Swipl),
     setup_call_cleanup(
-        process_create(Swipl, [File, '--', 20],
+        process_create(Swipl, [File, '--', 6],
                        [stdout(pipe(Out)), stderr(null), process(Pid)]),
         read_string(Out, _, Said),
         ( close(Out), process_wait(Pid, Status) )).
@@ -415,7 +415,7 @@ random_atomic(1, Term) :- random_name(Term).
 random_atomic(2, Term) :- random_between(-1000000, 1000000, Term).
 random_atomic(3, Term) :- Term is (random_float-0.5)*10.0**(random(600)-300).
 random_atomic(4, Term) :- random_name(Name), atom_string(Name, Term).
-random_atomic(5, Term) :- findall(T, special(T), Ts), random_member(Term, Ts).
+random_atomic(5, Term) :- specials(Terms), random_member(Term, Terms).
 random_atomic(6, _).
 
 random_name(Name) :-
@@ -423,7 +423,7 @@ random_name(Name) :-
     random_name(Kind, Name).
 
 random_name(0, Name) :-
-    findall(Op, ( current_op(P, _, Op), P > 0, Op \== [] ), Ops),
+    operators(Ops),
     random_member(Name, Ops).
 random_name(1, Name) :-
     random_member(Name, [a, foo, 'Bar', 'x y', '[]', {}, '', '\\', -]).
@@ -433,6 +433,14 @@ random_name(Kind, Name) :-
     length(Codes, Length),
     random_codes(Codes),
     atom_codes(Name, Codes).
+
+:- table operators/1, specials/1.
+
+operators(Ops) :-
+    findall(Op, ( current_op(P, _, Op), P > 0, Op \== [] ), Ops).
+
+specials(Terms) :-
+    findall(Term, special(Term), Terms).
 
 random_codes([]).
 random_codes([Code|Codes]) :-
