@@ -14,11 +14,12 @@ sampled here; `make scripted` runs all cases.
 %   each(-Way, -Scenarios, -Whens, :Disturbs): call(Disturbs, Scenario, Link,
 %   When) for these Scenarios, their links and Whens.
 
-each(Way, All, [before,inside,after], disturbs(Program, cut)) :-
-    all_scenarios(All),
-    member(Way-Program, [ short-known, short-forgotten, both-known,
-                          long-known ]).
-each(short, All, [before,inside], disturbs(known, cut_twice)) :-
+each(short, All, [inside,after], disturbs(known, cut)) :-
+    all_scenarios(All).
+each(Way, [there_and_back,clone,refused,follow,chase], [inside,after],
+     disturbs(Program, cut)) :-
+    member(Way-Program, [short-forgotten, both-known, long-known]).
+each(short, All, [inside], disturbs(known, cut_twice)) :-
     all_scenarios(All).
 each(short, [ring,clone,follow], [before], disturbs(known, hold(0.1))).
 each(short, [there_and_back,follow], [inside], disturbs(known, mute)).
