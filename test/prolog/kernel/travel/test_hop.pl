@@ -29,10 +29,11 @@ with_proxied(Codec, Goal) :-
 
 :- begin_tests(connections_cut_during_hops).
 
-test(every_step_once, forall(( member(Codec, [fast, text]),
-                               member(Goal, [ cut_everywhere(up, down),
-                                              cut_everywhere(down, up),
-                                              cut_all_the_time(8, 150) ]) ))) :-
+test(every_step_once, forall(member(Codec-Goal,
+                                    [ fast-cut_everywhere(up, down),
+                                      text-cut_everywhere(down, up),
+                                      fast-cut_all_the_time(8, 100),
+                                      text-cut_all_the_time(8, 100) ]))) :-
     with_proxied(Codec, Goal).
 test(between_hosts_of_one_process) :-
     with_peers([a-[proxy(true)]], cut_self_connection).
@@ -44,7 +45,7 @@ test(large_agents_among_small_ones, forall(heavy(Codec, Facts))) :-
 
 :- end_tests(connections_cut_during_hops).
 
-heavy(fast, 20 000).
+heavy(fast, 10 000).
 heavy(text, 2 000).
 
 %   Agents with so many facts hop to and fro from both sides, with small ones
@@ -56,15 +57,15 @@ cross_heavily(Facts) :-
     findall(Peer-Id,
             ( member(Peer-Route, [a-[B, A], b-[A, B]]),
               (   between(1, 3, _),
-                  heavy(Peer, Route, 10, Facts, Id)
+                  heavy(Peer, Route, 4, Facts, Id)
               ;   between(1, 4, _),
-                  set_out(Peer, Route, 100, Id)
+                  set_out(Peer, Route, 60, Id)
               ) ),
             Ids),
     forall(member(Peer-Id, Ids),
            (   atom_concat(heavy, _, Id)
-           ->  ended_done(Peer, Id, 10)
-           ;   ended_done(Peer, Id, 100)
+           ->  ended_done(Peer, Id, 4)
+           ;   ended_done(Peer, Id, 60)
            )).
 
 %   An agent goes from a to b and back. Data from a to b pass the proxy of b
@@ -204,7 +205,7 @@ swap(Rounds) :-
 
 :- begin_tests(hop_messages).
 
-test(arrive_once_each, forall(member(Codec-Count, [fast-1000, text-300]))) :-
+test(arrive_once_each, forall(member(Codec-Count, [fast-400, text-200]))) :-
     with_peers([ a-[codec(Codec)], b-[codec(Codec)], c-[codec(Codec)] ],
                chase(Count)).
 test(follow_in_several_frames, Numbers == [1, 2, 3, 4, 5, 6, 7]) :-
@@ -212,7 +213,7 @@ test(follow_in_several_frames, Numbers == [1, 2, 3, 4, 5, 6, 7]) :-
     with_peers([ a-[proxy(true), Small], b-[proxy(true)] ],
                follow_big(7, 6000, Numbers)).
 test(ordered_to_end_while_hopping) :-
-    with_peers([a, b, c], dispose_hopping(20)).
+    with_peers([a, b, c], dispose_hopping(10)).
 
 :- end_tests(hop_messages).
 
