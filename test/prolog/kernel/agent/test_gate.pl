@@ -192,13 +192,13 @@ note_event(Event) :-
                 *******************************/
 
 with_processes(Goal) :-
-    with_authority([alpha, far], [alice], with_processes(Goal)).
+    with_authority([alpha, beta], [alice], with_processes(Goal)).
 
 :- meta_predicate with_processes(0), with_processes(0, +).
 
 with_processes(Goal, Authority) :-
     keys_of(alpha, Authority, Alpha),
-    keys_of(far, Authority, Far),
+    keys_of(beta, Authority, Far),
     with_peers([far-[host([tls(Far)])]],
                setup_call_cleanup(host_start(home, [tls(Alpha)]),
                                   once(Goal),
@@ -211,7 +211,7 @@ expected(Path, Reason, move_refused(Inn, Reason), Peer-certificate(Name)) :-
     home(Source, Home),
     (   Source == here
     ->  Name = alpha, host_property(home, address(Address))
-    ;   Name = far, peer_host(Home, Address)
+    ;   Name = beta, peer_host(Home, Address)
     ),
     typhon_host:address_parts(Address, _, Peer),
     host_property(home, address(HomeAddress)),

@@ -35,7 +35,7 @@ test(log_is_extended_only_if_it_is_one,
      error(permission_error(overwrite, log, _))) :-
     with_tmp_dir(extended).
 test(signature_is_not_written_over_another_file) :-
-    with_authority([], [ann], signed).
+    with_authority([], [alice], signed).
 test(options_of_a_running_host_as_well,
      error(permission_error(overwrite, audit, _))) :-
     with_hosts([alpha], with_tmp_dir(changed)).
@@ -127,10 +127,10 @@ changed(Dir) :-
 
 signed(Authority) :-
     file_with(Authority, 'a.pl', ":- agent(a, []).\nmain :- leave(x).\n", File),
-    keys_sign_file(File, ann, Authority),
-    keys_sign_file(File, ann, Authority),
+    keys_sign_file(File, alice, Authority),
+    keys_sign_file(File, alice, Authority),
     file_with(Authority, 'a.pl.sig', "another thing", _),
-    catch(keys_sign_file(File, ann, Authority), error(Formal, _), true),
+    catch(keys_sign_file(File, alice, Authority), error(Formal, _), true),
     assertion(subsumes_term(permission_error(overwrite, signature, _), Formal)).
 
 file_with(Dir, Name, Text, File) :-

@@ -77,7 +77,7 @@ resides(Agent, Host) :-
 :- begin_tests(attackers).
 
 test(expired_certificate_is_refused) :-
-    with_authority([alpha, good, old], [], test_attackers:expired).
+    with_authority([alpha, beta, delta], [], test_attackers:expired).
 test(removed_link_is_detected) :-
     with_attacker(test_attackers:links_removed).
 test(replayed_image_creates_no_second_agent) :-
@@ -89,13 +89,13 @@ test(replayed_image_creates_no_second_agent) :-
 %   prints the answer. With a valid certificate that is a greeting.
 
 expired(Authority) :-
-    expired_host(Authority, old),
+    expired_host(Authority, delta),
     keys_of(alpha, Authority, Dir),
     setup_call_cleanup(
         host_start(alpha, [tls(Dir)]),
         ( host_endpoint(alpha, Endpoint),
-          greets(Authority, good, Endpoint, Welcome),
-          greets(Authority, old, Endpoint, Refusal) ),
+          greets(Authority, beta, Endpoint, Welcome),
+          greets(Authority, delta, Endpoint, Refusal) ),
         host_stop(alpha)),
     assertion(sub_string(Welcome, _, _, _, "typhon 3 ")),
     assertion(\+ sub_string(Refusal, _, _, _, "typhon 3 ")),

@@ -63,11 +63,11 @@ reported :-
 :- begin_tests(arrivals_by_certificate, [condition(has_openssl)]).
 
 test(certificate_of_the_host_decides_by_rights) :-
-    with_authority([inn, guest], [], by_certificate(inn)).
+    with_authority([alpha, beta], [], by_certificate(alpha)).
 test(certificate_of_a_stranger_decides_by_rights) :-
-    with_authority([inn, guest], [], by_certificate(guest)).
+    with_authority([alpha, beta], [], by_certificate(beta)).
 test(stranger_without_rules_may_not_run_goals_or_write_logs) :-
-    with_authority([inn, guest], [], default_rights).
+    with_authority([alpha, beta], [], default_rights).
 
 :- end_tests(arrivals_by_certificate).
 
@@ -86,7 +86,7 @@ by_cookie(Test, Dir) :-
         with_host_here([], call(Test, cookie, File)))).
 
 by_certificate(Holder, Authority) :-
-    keys_of(inn, Authority, Inn),
+    keys_of(alpha, Authority, Inn),
     keys_of(Holder, Authority, Keys),
     with_tmp_dir(by_certificate(Inn, Keys, certificate(Holder))).
 
@@ -97,8 +97,8 @@ by_certificate(Inn, Keys, Proof, Dir) :-
         with_host_here([tls(Keys)], all_rights(Proof, File)))).
 
 default_rights(Authority) :-
-    keys_of(inn, Authority, Inn),
-    keys_of(guest, Authority, Keys),
+    keys_of(alpha, Authority, Inn),
+    keys_of(beta, Authority, Keys),
     with_tmp_dir(default_rights(Inn, Keys)).
 
 default_rights(Inn, Keys, Dir) :-

@@ -58,7 +58,7 @@ then(Goal, Goals, (Goals,Goal)).
 
 tls(Dir, Port, ['--port', 0, '--tls-port', Port, '--tls-cert-file', Cert,
                 '--tls-key-file', Key, '--tls-ca-cert-file', Ca]) :-
-    keys(Dir, server, [cacert(Ca), key(Key), cert(Cert)]).
+    keys(Dir, alpha, [cacert(Ca), key(Key), cert(Cert)]).
 
 keys(Dir, Name, [cacert(Ca), key(Key), cert(Cert)]) :-
     keys_of(Name, Dir, Own),
@@ -69,7 +69,7 @@ keys(Dir, Name, [cacert(Ca), key(Key), cert(Cert)]) :-
 :- meta_predicate with_tls(-, -, 0).
 
 with_tls(Dir, Address, Goal) :-
-    no_leaks(with_authority([server,member], [], Dir,
+    no_leaks(with_authority([alpha,beta], [], Dir,
                             test_engines:with_tls_in(Dir, Address, Goal))).
 
 :- public with_tls_in/3.
@@ -83,7 +83,7 @@ with_tls_in(Dir, Address, Goal) :-
 
 test(members_with_certificates_meet, Names == [alpha,beta]) :-
     with_tls(Dir, Address,
-             ( keys(Dir, member, Keys),
+             ( keys(Dir, beta, Keys),
                Joins = [redis(Address), tls(true), lease(60)|Keys],
                in_fleet(Joins,
                         with_peers([beta-[ setup(fleet_join(lab, Joins)),
@@ -95,14 +95,14 @@ test(members_with_certificates_meet, Names == [alpha,beta]) :-
 test(certificate_of_another_authority_is_refused,
      throws(error(resource_error(fleet(lab)), _))) :-
     with_tls(Dir, Address,
-             ( self_made_host(Dir, member),
-               keys(Dir, member, Keys),
+             ( self_made_host(Dir, beta),
+               keys(Dir, beta, Keys),
                in_fleet([redis(Address), tls(true)|Keys], true) )).
 
 test(server_of_another_authority_is_refused,
      throws(error(resource_error(fleet(lab)), context(_, Why)))) :-
     with_tls(Dir, Address,
-             ( keys(Dir, member, [_|Keys]),
+             ( keys(Dir, beta, [_|Keys]),
                keys_of(member, Dir, Own),
                directory_file_path(Own, 'cert.pem', Other),
                in_fleet([redis(Address), tls(true), cacert(Other)|Keys], true) )),
@@ -114,7 +114,7 @@ test(plain_connection_is_refused,
 
 test(options_of_the_command_line_reach_the_engine, Names == []) :-
     with_tls(Dir, Address,
-             ( keys(Dir, member, Keys),
+             ( keys(Dir, beta, Keys),
                Address = Host:Port,
                atomic_list_concat([Host,Port], :, Redis),
                engine_options(host, [fleet(lab), redis(Redis)|Keys], Joins),
