@@ -107,7 +107,7 @@ test(every_topology,
      forall(member(T, [star_bus(3,4), ring(7), tree(7), grid(2,3), mesh(6),
                        random(8, 0.4), edges([a-b, b-3])]))) :-
     network_shape(T, [seed(5)], _, _, Edges),
-    with_network(T, [processes(2), seed(5)], Network,
+    with_network(T, [seed(5)], Network,
                  edges_are(Edges, Network)).
 test(agents_travel_over_the_whole_network, Count == 12) :-
     with_network(ring(12), [processes(3)], Network, round_trip(Count, Network)).
@@ -372,7 +372,7 @@ test(hanging_process_is_killed_soon, true(soon(Seconds, 10))) :-
 
 %   The end of the output and the signal race.
 
-test(every_killed_process_is_noticed, forall(member(_, [1, 2, 3, 4]))) :-
+test(every_killed_process_is_noticed) :-
     quiet(with_network(ring(5), [processes(5)], Network, all_killed(Network))).
 
 all_killed(Network) :-
