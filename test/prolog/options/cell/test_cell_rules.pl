@@ -1,7 +1,7 @@
 :- module(test_cell_rules, []).
 :- use_module('../../../lib/common').
 :- use_module(library(plunit)).
-:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/options/guard), []).
@@ -28,19 +28,18 @@
 %   frame_of(+Bytes, -Result): Result is the text of the frame, `end`, or the
 %   error.
 
-frame_of(Codes, Result) :-
+frame_of(Bytes, Result) :-
     setup_call_cleanup(
-        ( string_codes(String, Codes), open_string(String, In) ),
+        ( string_codes(String, Bytes), open_string(String, In) ),
         catch(( cell_frame_text(In, Text) -> Result = Text ; Result = end ),
               error(Result, _), true),
         close(In)).
 
-long(Length, Codes) :-
+long(Length, Bytes) :-
     B3 is Length>>24, B2 is Length>>16 /\ 255, B1 is Length>>8 /\ 255,
     B0 is Length /\ 255,
-    Codes = [B3,B2,B1,B0|Body],
-    length(Body, Length),
-    maplist(=(0'x), Body).
+    Width is 4+Length,
+    format(string(Bytes), "~s~`xt~*|", [[B3,B2,B1,B0], Width]).
 
 :- begin_tests(cell_frame_bounds).
 
@@ -53,16 +52,16 @@ test(truncated_frame_is_an_error, Result == syntax_error(truncated_frame)) :-
     frame_of([0,0,0,3,0'a,0'b], Result).
 test(longest_frame_has_eight_million_bytes,
      Results == [8 388 608,syntax_error(frame_too_large)]) :-
-    findall(R, ( member(N, [8 388 608,8 388 609]), long(N, Codes),
-                 frame_of(Codes, R0),
+    findall(R, ( member(N, [8 388 608,8 388 609]), long(N, Bytes),
+                 frame_of(Bytes, R0),
                  ( string(R0) -> string_length(R0, R) ; R = R0 ) ), Results).
 test(longest_frame_is_written,
      Results == [ok,resource_error(cell_frame)]) :-
     written("", ok, Around),
     Most is 8 388 608-Around,
     findall(R, ( member(More, [0,1]), N is Most+More,
-                 length(Codes, N), maplist(=(0'-), Codes),
-                 string_codes(Text, Codes), written(Text, R, _) ), Results).
+                 format(string(Text), "~`-t~*|", [N]), written(Text, R, _) ),
+            Results).
 test(frame_is_read_as_it_was_written,
      [forall(member(Term, [ ready, told(1, [log("ä")]), f(X, _, X), 'a b'(1.5),
                             "", [], 1r3 ])), Read =@= Term]) :-
@@ -75,10 +74,8 @@ test(frame_is_read_as_it_was_written,
 test(numbers_have_less_than_thirty_thousand_digits,
      Results == [read,read,syntax_error(long_number)]) :-
     findall(R, ( member(N, [100,14 999,30 000]),
-                 length(Codes, N),
-                 maplist(=(0'7), Codes),
-                 string_codes(Text, [0'[|Codes]),
-                 string_concat(Text, "].", Bytes),
+                 Width is N+1,
+                 format(string(Bytes), "[~`7t~*|].", [Width]),
                  catch(( cell_text_term(Bytes, _), R = read ), error(R, _),
                        true) ), Results).
 test(text_of_no_term_is_an_error,
