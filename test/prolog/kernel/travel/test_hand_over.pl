@@ -177,14 +177,14 @@ test(changing_options_loses_no_agent, [forall(may_have(Options))]) :-
         ( peer_host(a, A),
           peer_host(b, B),
           travel(a, [B, A], 2),
-          findall(Id, ( between(1, 10, _), set_out(a, [B, A], 200, Id) ), Ids),
-          forall(( between(1, 4, _),
+          findall(Id, ( between(1, 10, _), set_out(a, [B, A], 100, Id) ), Ids),
+          forall(( between(1, 2, _),
                    switched(On, Off),
                    member(Peer, [a, b]) ),
                  ( peer_do(Peer, host_change(Peer, On)),
                    forall(member(X, [a, b]), travel(X, [B, A], 4)),
                    peer_do(Peer, host_change(Peer, Off)) )),
-          forall(member(Id, Ids), ended_done(a, Id, 200)) )).
+          forall(member(Id, Ids), ended_done(a, Id, 100)) )).
 
 :- end_tests(options_under_traffic).
 
