@@ -49,7 +49,7 @@ waits([done-in_time,done-in_time,timeout-in_time,done-in_time|Naps]) :-
 :- begin_tests(set_clock, [condition(clock_is_settable)]).
 
 step(Step) :-
-    member(Step, [-3600,-30,30,3600]).
+    member(Step, [-30,3600]).
 
 test(waits_networks_and_children, Results == Expected) :-
     waits(Waits),
@@ -58,8 +58,8 @@ test(waits_networks_and_children, Results == Expected) :-
     at_once([waits,network,child], Steps, Results).
 test(now_does_not_go_back, R =:= 0) :-
     results([now], 0, [now-R]).
-test(no_agent_is_lost_in_chaos, Results == [[chaos-[done]],[chaos-[done]]]) :-
-    at_once([chaos], [30,3600], Results).
+test(no_agent_is_lost_in_chaos, Results == [chaos-[done]]) :-
+    results([chaos], 3600, Results).
 
 :- end_tests(set_clock).
 
