@@ -199,10 +199,10 @@ test(request_that_cannot_be_served,
        error(connection_lost(_)) ]) :-
     fresh(with_peer(A, ask(A, Kind, x, _))).
 test(large_terms_both_ways) :-
-    length(Long, 300000),
+    length(Long, 100000),
     maplist(=(x), Long),
     fresh(with_peer(A,
-        concurrent_forall(between(1, 8, _),
+        concurrent_forall(between(1, 4, _),
                           ( ask(A, echo, Long, Back), Back == Long ),
                           [threads(4)]))).
 test(request_to_itself, Answer-Codec == x-fast) :-
@@ -623,8 +623,8 @@ test(another_process_at_the_address_is_reported, Process == New) :-
 
 :- begin_tests(no_leaks).
 
-test(after_a_hundred_starts) :-
-    no_leaks(forall(between(1, 100, _),
+test(after_many_starts) :-
+    no_leaks(forall(between(1, 25, _),
                     fresh(( endpoint_address(A),
                                     ask(A, echo, x, x) )))).
 test(processes_do_not_keep_the_port) :-
