@@ -9,7 +9,7 @@
 /** <module> Faults of earlier platforms do not occur
 
 Peers that are silent, killed or restarted; agents that hop without pause,
-10,000 times. TYPHON_HOPS=100000 in the environment
+2,000 times. TYPHON_HOPS=100000 in the environment
 sets that number.
 */
 
@@ -207,9 +207,9 @@ got_away(Home, Steps, Id) :-
 
 test(disposed_agent_does_not_continue) :-
     with_peers([ a-[host([hop_time(uniform(0.005, 0.01))])], b ],
-               disposed_while_leaving(60)).
+               disposed_while_leaving(24)).
 test(agents_hop, forall(member(Goal, [ bounce, namesakes,
-                                       stop_under_way(20) ]))) :-
+                                       stop_under_way(8) ]))) :-
     with_peers([a, b], Goal).
 
 :- end_tests(constant_hops).
@@ -225,7 +225,7 @@ disposed_while_leaving(Count) :-
                         (main :- move(B), receive(_)) ]),
     forall(between(1, Count, I),
            ( peer_do(a, agent_create(Program, Id, [facts(Facts)])),
-             Pause is 0.004 + 0.0001*I,
+             Pause is 0.004 + 0.00025*I,
              sleep(Pause),
              peer_do(a, agent_dispose(Id)),
              ended(a, Id, disposed) )),
@@ -236,7 +236,7 @@ disposed_while_leaving(Count) :-
 hops(Hops) :-
     (   getenv('TYPHON_HOPS', Atom)
     ->  atom_number(Atom, Hops)
-    ;   Hops = 10000
+    ;   Hops = 2000
     ).
 
 %   Twenty agents share the hops.
