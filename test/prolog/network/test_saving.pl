@@ -194,7 +194,7 @@ consistent(Options, File) :-
     with_network(mesh(5), Options, Network,
                  ( traffic(Network),
                    beside_another(Network, File,
-                       forall(between(1, 10, _),
+                       forall(between(1, 4, _),
                               ( pause(0.05),
                                 all_there(Network, File, 6, _) ))) )),
     with_loaded_network(File, Again,
