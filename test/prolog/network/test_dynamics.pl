@@ -64,12 +64,11 @@ test(named_models_are_special_cases,
        true(Named == General) ]) :-
     history(Name, grid(4, 5), 2, 100, _, _, Named),
     history(Model, grid(4, 5), 2, 100, _, _, General).
-test(repeatable, Changes == Again) :-
-    history(random_links, grid(6, 10), 3, 300, _, _, Changes),
-    history(random_links, grid(6, 10), 3, 300, _, _, Again).
-test(other_seed_other_changes, true(Changes \== Others)) :-
-    history(random_links, grid(6, 10), 3, 300, _, _, Changes),
-    history(random_links, grid(6, 10), 4, 300, _, _, Others).
+test(seed_determines_the_changes,
+     true(( Changes == Again, Changes \== Others ))) :-
+    history(random_links, grid(6, 10), 3, 60, _, _, Changes),
+    history(random_links, grid(6, 10), 3, 60, _, _, Again),
+    history(random_links, grid(6, 10), 4, 60, _, _, Others).
 test(order_of_listed_links_does_not_matter,
      [ forall(member(Model, [ toggle(uniform(1, 2), 0.5, 0.5),
                               links(uniform(1, 2), 0.5, 0.5) ])),
@@ -79,18 +78,18 @@ test(order_of_listed_links_does_not_matter,
 test(changes_lead_to_the_current_links,
      [ forall(member(M, [random_links, thesis_4_4_7, dynamic_1, dynamic_2])),
        true(Links == Last) ]) :-
-    network_history(grid(6, 10), [dynamic(M), seed(1)], 400,
+    network_history(grid(6, 10), [dynamic(M), seed(1)], 100,
                     shape(_, First, Last), Changes),
     foldl(apply_change, Changes, First, Links0),
     sort(Links0, Links).
 test(times_ascend, Times == Sorted) :-
-    history(random_links, grid(6, 10), 1, 400, _, _, Changes),
+    history(random_links, grid(6, 10), 1, 60, _, _, Changes),
     findall(T, member(T-_, Changes), Times),
     msort(Times, Sorted).
 test(every_host_acts_every_ten_to_twenty_seconds) :-
-    history(toggle(uniform(10,20), 1, 1), ring(50), 1, 1500, _, _, Changes),
-    length(Changes, Count),             % 50 hosts, 100 changes each
-    abs(Count - 5000) < 100,
+    history(toggle(uniform(10,20), 1, 1), ring(50), 1, 300, _, _, Changes),
+    length(Changes, Count),             % 50 hosts, 20 changes each
+    abs(Count - 1000) < 50,
     Changes = [First-_|_],
     First >= 10, First =< 20.
 test(probabilities_of_section_4_4_7) :-
@@ -109,25 +108,25 @@ test(degrees_of_section_4_4_7) :-      % the thesis: 0 to 27, after the mesh
     Min =< 2,
     Max =< 27.
 test(one_at_a_time_keeps_a_mesh_dense) :-
-    network_history(mesh(50), [dynamic(random_links), seed(1)], 1000,
+    network_history(mesh(50), [dynamic(random_links), seed(1)], 300,
                     shape(N, _, Links), _),
     degrees(N, Links, Degrees),
     min_list(Degrees, Min),
     Min > 40.
 test(dynamic_1_uses_only_the_links_of_the_network) :-
-    history(dynamic_1, grid(6, 10), 1, 2000, _, Edges, Changes),
+    history(dynamic_1, grid(6, 10), 1, 300, _, Edges, Changes),
     forall(member(_-Change, Changes),
            ( Change =.. [_, I, J], memberchk(I-J, Edges) )).
 test(dynamic_1_settles_at_seven_twelfths) :-
     findall(Share,
-            ( between(1, 10, Seed),
+            ( between(1, 4, Seed),
               network_history(grid(6, 10), [dynamic(dynamic_1), seed(Seed)],
                               300, shape(_, _, Links), _),
               length(Links, L),
               Share is L / 104 ),
             Shares),
     sum_list(Shares, Sum),
-    abs(Sum / 10 - 0.7 / 1.2) < 0.07.
+    abs(Sum / 4 - 0.7 / 1.2) < 0.07.
 test(dynamic_2_exceeds_the_degrees_of_the_grid) :-
     network_history(grid(6, 10), [dynamic(dynamic_2), seed(1)], 300,
                     shape(N, _, Links), Changes),
