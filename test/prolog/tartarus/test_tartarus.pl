@@ -85,7 +85,7 @@ test(agent_back_before_its_move_has_returned_is_not_lost) :-
     tartarus([["next($2)."|Walker], ["next($1)."|Walker]],
              [ up(a, 7), up(b, 7),
                a:"create_mobile_agent(w, (localhost,$1), walker, [7]), \c
-                  assertz(left(w, 400)), add_payload(w, [(left,2)]), \c
+                  assertz(left(w, 100)), add_payload(w, [(left,2)]), \c
                   execute_agent(w, (localhost,$1), walker).", a > ["home"] ]).
 test(payload_travels_and_its_template_stays) :-
     tartarus([[ ":- dynamic carry/3, load/2.", "load(guid, 150).",
