@@ -61,7 +61,7 @@ part(tartarus,                          % and the names of SWI-PRO-NXT
      [ 'prolog/tartarus', 'prolog/typhon/bridges/nxt/swi_pro_nxt.pl',
        'prolog/typhon/bridges/nxt/old_devices.pl', 'bridges/tartarus',
        'doc/tartarus.md', 'test/prolog/tartarus',
-       'test/lib/tartarus_nodes.pl' ]).
+       'test/lib/quick_tartarus.pl', 'test/lib/tartarus_nodes.pl' ]).
 part(fipa,
      [ 'prolog/typhon/fipa.pl' ],
      [ 'prolog/typhon/bridges/fipa', 'app/typhon/fipa', 'payloads/fipa',

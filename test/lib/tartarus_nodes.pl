@@ -7,13 +7,16 @@
             ports/2                     % +Count, -Ports
           ]).
 :- use_module(library(apply), [maplist/2]).
-:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(filesex),
+              [ delete_directory_and_contents/1, directory_file_path/3,
+                make_directory_path/1 ]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(process), [process_create/3, process_kill/2,
                                  process_wait/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(common, [free_port/1, project_file/2, wait_until/2,
                        with_tmp_dir/1]).
+:- use_module(quick_swipl, [quick_swipl/3]).
 
 /** <module> Platforms of Tartarus, each a process of its own
 
@@ -54,7 +57,7 @@ node(Program, I, Dir, node(Pid, In, OutFile)) :-
         close(Stream)),
     project_file(prolog, Library),
     atom_concat('library=', Library, Path),
-    current_prolog_flag(executable, Swipl),
+    platform(Swipl),
     setup_call_cleanup(
         open(OutFile, write, Out),
         process_create(Swipl,
@@ -63,6 +66,16 @@ node(Program, I, Dir, node(Pid, In, OutFile)) :-
                        [ cwd(Dir), stdin(pipe(In)), stdout(stream(Out)),
                          stderr(stream(Out)), process(Pid) ]),
         close(Out)).
+
+%   A process makes one state for all its nodes.
+
+:- table platform/1.
+
+platform(Swipl) :-
+    tmp_file(tartarus, Dir),
+    make_directory_path(Dir),
+    at_halt(delete_directory_and_contents(Dir)),
+    quick_swipl(quick_tartarus, Dir, Swipl).
 
 file(Dir, Name, I, Extension, File) :-
     format(atom(Base), '~w~d.~w', [Name, I, Extension]),
