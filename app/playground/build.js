@@ -62,7 +62,7 @@ async function build(to) {
   const [script, bytes] = split(text('test/lib/wasm/swipl-bundle-no-data.js'));
   put('swipl.js', script);
   put('swipl.wasm', bytes);
-  put('typhon.state', await save('app/playground/playground.pl'));
+  put('typhon.state', await save());
   put('sources.json', files(NAMED));
   put('studies.json', files(READ));
   // The service worker keeps exactly these files, of this version.

@@ -1,5 +1,5 @@
-// node app/playground/state.js STATE: writes a saved state of the platform for
-// SWI-Prolog for WebAssembly.  boot() starts a process from it.
+// node app/playground/state.js STATE: writes a saved state of the playground, or of
+// the platform alone, for SWI-Prolog for WebAssembly.  boot() starts a process from it.
 
 'use strict';
 const fs = require('fs');
@@ -7,8 +7,10 @@ const path = require('path');
 
 const root = path.join(__dirname, '../..');
 const engine = path.join(root, 'test/lib/wasm');
-const LOADED = ['prolog', 'app/playground', 'experiments/engine']
-  .filter((folder) => fs.existsSync(path.join(root, folder)));
+const there = (name) => fs.existsSync(path.join(root, name));
+const LOADED = ['prolog', 'app/playground', 'experiments/engine'].filter(there);
+const PROGRAM = ['playground', 'platform'].map((name) => `app/playground/${name}.pl`)
+  .find(there);
 
 // The names of the files NAME.pl below a folder of the project.
 function sources(folder) {
@@ -34,8 +36,8 @@ function succeed(Module, goal) {
   if (answer.success !== true) throw new Error(`${goal}: ${answer.message}`);
 }
 
-// The bytes of a state in which the file PROGRAM, of the project, is loaded.
-async function save(program = 'app/playground/platform.pl') {
+// The bytes of a state in which PROGRAM is loaded.
+async function save() {
   const said = [];
   const Module = await require(path.join(engine, 'swipl-bundle.js'))({
     arguments: ['-q'],
@@ -43,7 +45,7 @@ async function save(program = 'app/playground/platform.pl') {
     printErr: (line) => said.push(line),
   });
   mount(Module, [...LOADED.flatMap(sources), 'pack.pl']);
-  succeed(Module, `use_module('/typhon/${program}'), ` +
+  succeed(Module, `use_module('/typhon/${PROGRAM}'), ` +
           "use_module('/typhon/app/playground/platform.pl'), " +
           "platform_save('/typhon.state')");
   if (said.length > 0) throw new Error(said.join('\n'));
@@ -63,7 +65,7 @@ async function boot(state, print, printErr) {
   return Module;
 }
 
-module.exports = { boot, mount, save, sources, succeed };
+module.exports = { boot, mount, save, sources, succeed, there };
 
 if (require.main === module)
   save().then((state) => fs.writeFileSync(process.argv[2], state))

@@ -1,4 +1,5 @@
 :- module(test_playground, []).
+:- use_module('../../app/packaging/parts', [installed/1]).
 :- use_module('../lib/common').
 :- use_module('../lib/documents',
               [block_write/2, blocks/2, document/1]).
@@ -17,10 +18,10 @@
 
 /** <module> Programs in virtual time give the same logs in WebAssembly
 
-The sessions of each document that uses virtual time, and one of each mechanism,
-are played twice, one after the other, by this Prolog and by one from the saved
-state of the playground, see lib/wasm/play.pl.  Answers and logs are compared byte
-by byte.
+The sessions of each document that uses virtual time, one of each mechanism, and
+runs of the studies that the site offers, are played twice, one after the other,
+by this Prolog and by one from the saved state of the playground, see
+lib/wasm/play.pl.  Answers and logs are compared byte by byte.
 
 *Threading*: the main thread.
 */
@@ -34,6 +35,10 @@ drop_folder :-
 
 test(same_bytes, [forall(played(_, File)), Different-File == []-File]) :-
     different(File, Different).
+test(all_studies_of_the_site, [condition(installed(studies)),
+                                Played == Offered]) :-
+    studies_in('test/lib/wasm/sessions/studies.pl', Played),
+    studies_in('app/playground/build.js', Offered).
 
 :- end_tests(playground).
 
@@ -67,12 +72,26 @@ play_all :-
 
 played(document(Blocks), File) :-
     virtual_document(File, Blocks).
-played(mechanism(File), File) :-
-    project_file('test/lib/wasm/mechanisms/*.pl', Pattern),
+played(session(File), File) :-
+    project_file('test/lib/wasm/sessions/*.pl', Pattern),
     expand_file_name(Pattern, Files),
-    member(File, Files).
+    member(File, Files),
+    \+ ( file_base_name(File, 'studies.pl'), \+ installed(studies) ).
 
-prepare(mechanism(File), Dir) :-
+%   studies_in(+Path, -Studies): that the file names in quotes.
+
+studies_in(Path, Studies) :-
+    project_file(Path, File),
+    read_file_to_string(File, Text, []),
+    split_string(Text, "'", "", Words),
+    include(is_study, Words, Studies0),
+    sort(Studies0, Studies).
+
+is_study(Word) :-
+    sub_string(Word, 0, _, _, "ex"),    % examples, experiments
+    sub_string(Word, _, _, 0, ".pl").
+
+prepare(session(File), Dir) :-
     make_directory_path(Dir),
     directory_file_path(Dir, 'session.pl', Session),
     copy_file(File, Session).
@@ -87,6 +106,12 @@ prepare(document(Blocks), Dir) :-
     directory_file_path(Dir, 'session.pl', Session),
     write_file(Session, '~@',
                [forall(member(Goal, Goals), format('?- ~w~n', [Goal]))]).
+
+prepare_session(Path, Dir) :-
+    make_directory_path(Dir),
+    project_file(Path, File),
+    directory_file_path(Dir, 'session.pl', Session),
+    copy_file(File, Session).
 
 play_here(Dir) :-
     project_file('test/lib/wasm/play.pl', Play),

@@ -4,7 +4,7 @@
 
 const fs = require('fs');
 const path = require('path');
-const { boot, mount, sources, succeed } =
+const { boot, mount, sources, succeed, there } =
   require('../../../app/playground/state.js');
 const [state, from, folder, to] = process.argv.slice(2);
 
@@ -29,8 +29,8 @@ function save(FS, source, target) {
 
 boot(fs.readFileSync(state), console.log, console.error)
   .then((Module) => {
-    mount(Module, [...sources('agents'), ...sources('payloads'),
-      'test/lib/wasm/play.pl']);
+    mount(Module, [...['agents', 'payloads', 'experiments',
+      'examples/studies'].filter(there).flatMap(sources), 'test/lib/wasm/play.pl']);
     copy(Module.FS, from, folder);
     succeed(Module, "consult('/typhon/test/lib/wasm/play.pl')");
     for (const name of fs.readdirSync(from).sort())

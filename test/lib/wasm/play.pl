@@ -1,3 +1,4 @@
+:- use_module(library(filesex), [copy_file/2]).
 :- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(terms), [mapargs/3]).
 :- use_module(library(typhon), except([network_start/3])).
@@ -7,6 +8,10 @@
     and writes what they answer into the file `answers`.  Networks are written to
     logs.  Natively and in WebAssembly all files are the same then, see
     test_playground.pl. */
+
+:- prolog_load_context(directory, Here),
+   absolute_file_name('../../..', Project, [relative_to(Here)]),
+   asserta(user:file_search_path(project, Project)).
 
 :- dynamic
     known/2,                            % Name, Value: of $Name
@@ -94,3 +99,31 @@ known_values(Term, _, Term).
 
 known_value(Names, Term, Value) :-
     known_values(Term, Names, Value).
+
+%   study_played(+Path, +Values, -Measures): a run of a study as a model of the
+%   page, with these values of parameters.  Its log is kept under its name.  A run
+%   that ends by its limit fails.
+
+study_played(Path, Values, Measures) :-
+    use_module(project('experiments/engine/live')),
+    use_module(project('experiments/engine/studies')),
+    study_load(project(Path), Study),
+    study_at_work(Study),
+    live(Study, about(_, Parameters)),
+    findall(Name-Value, ( member(parameter(Name, First, _), Parameters),
+                          value_of(Name, Values, First, Value) ),
+            Pairs),
+    setup_call_cleanup(live(Study, set_up(Pairs)),
+                       run_of(Study, Path, Measures),
+                       live(Study, end)).
+
+value_of(Name, Values, First, Value) :-
+    ( memberchk(Name-Value0, Values) -> Value = Value0 ; Value = First ).
+
+run_of(Study, Path, Measures) :-
+    catch(live(Study, run), error(study_goal_failed(run/2), _), true),
+    live(Study, measures(Measures)),
+    study_live:live(_, Events, _, _),
+    file_base_name(Path, Name),
+    atom_concat(Name, '.log', Log),
+    copy_file(Events, Log).
