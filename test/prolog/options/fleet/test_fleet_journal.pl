@@ -137,14 +137,14 @@ full_disk(Items) :-
 test(long_commits_go_in_parts) :-
     numlist(1, 300000, Long),
     findall(a-K-N-f(N, "some text"),
-            ( between(1, 20, K0), atom_number(K, K0), between(1, 2000, N) ),
+            ( between(1, 20, K0), atom_number(K, K0), between(1, 1000, N) ),
             Many),
     in_lab(_, ( with_journal(commit([b-k-0-Long, b-l-0-Long|Many])),
                 with_journal(( items(b, [_-0-Long, _-0-Long]),
                                items(a, Items),
                                commit([drop(b, k, 0)]),
                                items(b, [l-0-_]) )) )),
-    length(Items, 40000).
+    length(Items, 20000).
 
                 /*******************************
                 *       OTHER PROCESSES        *
