@@ -266,7 +266,7 @@ test(thousand_messages_in_order, Ps == Expected) :-
 test(both_directions_at_once, Results == [done,exit(0),N-true,N-true]) :-
     (   getenv('TYPHON_MESSAGES', Atom)
     ->  atom_number(Atom, N)
-    ;   N = 4000
+    ;   N = 1500
     ),
     at_broker([pending(100000)], both_directions(N, Results)).
 
