@@ -9,7 +9,7 @@
               [agent_create/3, agent_property/2, agent_send/2, remote/2]).
 :- use_module('../../prolog/typhon/kernel/base/options', [check_options/2]).
 :- use_module('../../prolog/typhon/kernel/program/paths', []).
-:- use_module('../lib/settings', [known_settings/3]).
+:- use_module('../lib/settings', [setting_facts/3]).
 :- use_module(tasks, [check_task/1]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [foldl/4, maplist/3]).
@@ -33,7 +33,9 @@ another process started the hosts.
 *Threading*: any thread; no state.
 */
 
-:- multifile typhon_options:declared/4.
+:- multifile
+    agent_settings:takes/4,
+    typhon_options:declared/4.
 
 %!  auction_start(+Mechanism, +Hosts, +Options) is det.
 %
@@ -95,10 +97,10 @@ typhon_options:declared(auction_option, settings(X), list, X).
 typhon_options:declared(auction_option, diameter(X), positive_integer, X).
 typhon_options:declared(auction_option, slack(X), number, X).
 
+agent_settings:takes(auction_start, [agents(allocation/murdoch)], [], refused).
+
 settings(Hosts, Options, Settings) :-
-    known_settings([ window, answer, renew, contract, tries, bi_min, bi_max,
-                     beta, sending, level, memory, jobs ],
-                   Options, Pairs),
+    setting_facts(auction_start, Options, Given),
     edges(Hosts, Edges),
     (   option(diameter(Diameter), Options)
     ->  true
@@ -106,22 +108,21 @@ settings(Hosts, Options, Settings) :-
     ),
     slack(Hosts, Options, Slack),
     longest_hop(Hosts, Hop),
-    in_turn(Pairs, Hosts, Edges, Turns),
+    in_turn(Given, Hosts, Edges, Turns),
     Window is 2*Diameter*Hop*Turns + Slack,
     findall(setting(Name, Value),
-            ( member(Name-Value, Pairs)
-            ; member(Name-Value,
+            ( member(Name-Value,
                      [level-Diameter, window-Window, answer-Window]),
-              \+ memberchk(Name-_, Pairs)
-            ),
-            Settings).
+              \+ memberchk(setting(Name, _), Given) ),
+            More),
+    append(Given, More, Settings).
 
 %   in_turn(+Settings, +Hosts, +Edges, -Turns): Turns is the time, in hops,
 %   that a node with the mean number of neighbours needs to send to all of
 %   them; more than 1 only if nodes send one message after the other.
 
-in_turn(Pairs, Hosts, Edges, Turns) :-
-    (   memberchk(sending-one_by_one(Share), Pairs)
+in_turn(Given, Hosts, Edges, Turns) :-
+    (   memberchk(setting(sending, one_by_one(Share)), Given)
     ->  length(Edges, Links),
         length(Hosts, Count),
         Turns is max(1, Share*Links/Count)

@@ -11,7 +11,7 @@
               [agent_create/3, agent_property/2, agent_send/2, remote/2]).
 :- use_module('../../prolog/typhon/kernel/base/options', [check_options/2]).
 :- use_module('../../prolog/typhon/kernel/program/paths', []).
-:- use_module('../lib/settings', [known_settings/3, setting_facts/2]).
+:- use_module('../lib/settings', [setting_facts/3]).
 :- use_module(tasks, [check_task/1]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [member/2, memberchk/2]).
@@ -41,13 +41,18 @@ common/requirements.pl.  Details is a list of optional terms:
 *Threading*: any thread; no state.
 */
 
-:- multifile typhon_options:declared/4.
+:- multifile
+    agent_settings:takes/4,
+    typhon_options:declared/4.
 
 typhon_options:declared(robot_option, cost(X), ground, X).
 typhon_options:declared(robot_option, settings(X), list, X).
 typhon_options:declared(task_option, negotiation(X), ground, X).
 typhon_options:declared(task_option, settings(X), list, X).
 typhon_options:declared(task_option, name(X), atom, X).
+
+agent_settings:takes(robot_start, [agents(allocation/robot)], [], refused).
+agent_settings:takes(task_allocate, [agents(allocation/allocator)], [], refused).
 
 %!  robot_start(+Host, +Properties:list, +Options) is det.
 %
@@ -56,7 +61,7 @@ typhon_options:declared(task_option, name(X), atom, X).
 %     - cost(Payload)
 %       Computes the cost of a task: default payloads(allocation/nearest).
 %     - settings(Pairs)
-%       Name-Value, for `watch` and `patience`: see robot.pl.
+%       Name-Value, to replace the defaults in robot.pl.
 %
 %   @error existence_error(host, Host), host_unreachable(Host)
 %   @error domain_error(robot_option, Option), domain_error(setting, X)
@@ -64,13 +69,13 @@ typhon_options:declared(task_option, name(X), atom, X).
 robot_start(Host, Properties, Options) :-
     must_be(list(ground), Properties),
     check_options(robot_option, Options),
+    setting_facts(robot_start, Options, Settings),
     (   remote(Host, sense(robot(_)))
     ->  true
-    ;   create_robot(Host, Properties, Options)
+    ;   create_robot(Host, Properties, Settings, Options)
     ).
 
-create_robot(Host, Properties, Options) :-
-    settings([watch, patience], Options, Settings),
+create_robot(Host, Properties, Settings, Options) :-
     option(cost(Payload), Options, payloads(allocation/nearest)),
     findall(Fact,
             ( member(Property, Properties), Fact = property(Property)
@@ -156,20 +161,12 @@ status(_, free).
 task_allocate(Task, Host, Options, Agent) :-
     check_task(Task),
     check_options(task_option, Options),
-    settings([ cd, alpha_k, chi, bi_min, bi_max, beta, backoff, strategy,
-               sharing,
-               children, child_life, patience, monitor, pause, start, seed
-             ],
-             Options, Settings),
+    setting_facts(task_allocate, Options, Settings),
     option(negotiation(Payload), Options, payloads(allocation/willing)),
     option(name(Name), Options, allocator),
     agent_create(agents(allocation/allocator), Agent,
                  [ name(Name), host(Host), payloads([Payload]),
                    facts([Task|Settings]) ]).
-
-settings(Names, Options, Settings) :-
-    known_settings(Names, Options, _),
-    setting_facts(Options, Settings).
 
 %!  allocation_stage(+Agent, -Stage, -Robots:list(atom)) is semidet.
 %

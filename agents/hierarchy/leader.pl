@@ -35,11 +35,13 @@
     observer, which has the same payload and the reports of all leaders.
 */
 
+default(workers, 1, range(1, 1000, 1), "workers in each part").
+
 main :-
     receive(Customer-serve(Round, Hosts)),
     Hosts = [First|_],
     visit(First),
-    findall(Name-Value, setting(Name, Value), Settings),
+    settings(Settings),
     begin(Round, Hosts, Settings, Workers),
     now(Start),
     attend(Workers, Start, Ends),
@@ -47,6 +49,12 @@ main :-
     decide(Round, report(Settings, Ends, Facts)),
     send(Customer, served(Round)),
     main.
+
+settings(Settings) :-
+    findall(Name-Value, ( setting(Name, Value)
+                        ; default(Name, Value, _, _),
+                          \+ setting(Name, _) ),
+            Settings).
 
 begin(Round, Hosts, Settings, Workers) :-
     log(leads(Round, Settings)),

@@ -5,7 +5,7 @@
 :- use_module('../../prolog/typhon', [agent_create/3, agent_join/3]).
 :- use_module('../../prolog/typhon/kernel/base/options', [check_options/2]).
 :- use_module('../../prolog/typhon/kernel/program/paths', []).
-:- use_module('../lib/settings', [setting_facts/2]).
+:- use_module('../lib/settings', [setting_facts/3]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2]).
@@ -21,7 +21,9 @@ another mechanism, which a payload defines; leader.pl describes it.
 *Threading*: any thread; no state.
 */
 
-:- multifile typhon_options:declared/4.
+:- multifile
+    agent_settings:takes/4,
+    typhon_options:declared/4.
 
 %!  hierarchy_start(+Homes:list(atom), +Mechanism, +Options, -Leaders) is det.
 %
@@ -38,12 +40,13 @@ another mechanism, which a payload defines; leader.pl describes it.
 %       Name-Value, initial parameters of the mechanism and of its workers;
 %       `workers` is the number of workers in each part
 %
-%   @error domain_error(hierarchy_option, Option), and others of agent_create/3
+%   @error domain_error(hierarchy_option, Option), domain_error(setting, X),
+%   and others of agent_create/3
 
 hierarchy_start(Homes, Mechanism, Options, Leaders) :-
     must_be(list(atom), Homes),
     check_options(hierarchy_option, Options),
-    setting_facts(Options, Settings),
+    setting_facts(hierarchy_start, Options, Settings),
     option(decides(Level), Options, observer),
     option(limit(Limit), Options, 2000),
     decider(Level, Homes, Mechanism, Decider),
@@ -54,6 +57,8 @@ typhon_options:declared(hierarchy_option, decides(X),
                         oneof([observer, leaders, none]), X).
 typhon_options:declared(hierarchy_option, limit(X), number, X).
 typhon_options:declared(hierarchy_option, settings(X), list(pair), X).
+
+agent_settings:takes(hierarchy_start, [agents(hierarchy/leader)], [], taken).
 
 decider(none, _, _, none).
 decider(leaders, _, _, self).

@@ -1,4 +1,4 @@
-% Expects: count/1; lib; default/2 is discontiguous.
+% Expects: count/1; lib; default/4 is discontiguous.
 % Gives: bred/2, and what population/replication gives.
 
 /*  Cloning of agents that make progress, under the controller of chapter 6
@@ -16,7 +16,7 @@
 
 :- include('../population/replication').
 
-default(cloning, false).
+default(cloning, false, [true, false], "true: agents that make progress clone").
 
 fertile.
 

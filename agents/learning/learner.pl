@@ -1,6 +1,6 @@
 :- agent(learner, [state([setting/2, shareable/1, bag/1, begin/1, count/1,
                           solution/1])]).
-:- discontiguous default/2.
+:- discontiguous default/4.
 :- include(parameters).
 :- include('../lib/keep').
 :- include('../lib/await_order').

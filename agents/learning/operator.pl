@@ -9,7 +9,7 @@
               ]).
 :- use_module('../../prolog/typhon/kernel/base/options', [check_options/2]).
 :- use_module('../../prolog/typhon/kernel/program/paths', []).
-:- use_module('../lib/settings', [setting_facts/2]).
+:- use_module('../lib/settings', [setting_facts/3]).
 :- use_module('../lib/starts', [starts/4]).
 :- use_module(library(apply), [maplist/2, maplist/4]).
 :- use_module(library(error), [must_be/2]).
@@ -28,7 +28,9 @@ learner.pl describe what they provide.
 *Threading*: any thread; no state.
 */
 
-:- multifile typhon_options:declared/4.
+:- multifile
+    agent_settings:takes/4,
+    typhon_options:declared/4.
 
 %!  learning_start(+Hosts, +Problem, +Algorithms, +Options, -Agents) is det.
 %
@@ -41,12 +43,12 @@ learner.pl describe what they provide.
 %       Where they start, see starts/4.  The seed is also that of the
 %       trainers.
 %     - settings(Pairs)
-%       Name-Value, to replace the defaults in parameters.pl.
+%       Name-Value, to replace the defaults in parameters.pl, or of payloads.
 %
 %   To limit the queue of a host to N agents, start the host with the capacity
 %   N + 1: the trainer needs one.
 %
-%   @error domain_error(learning_option, Option)
+%   @error domain_error(learning_option, Option), domain_error(setting, X)
 %   @error type_error(list, X), domain_error(hosts, []),
 %   existence_error(host, Host), host_unreachable(Host)
 
@@ -67,6 +69,10 @@ typhon_options:declared(learning_option, starts(X), list(atom), X).
 typhon_options:declared(learning_option, seed(X), integer, X).
 typhon_options:declared(learning_option, settings(X), list, X).
 
+agent_settings:takes(learning_start,
+                     [agents(learning/learner), agents(learning/trainer)],
+                     [seed, start], taken).
+
 in_turn(Count, Algorithms, Algorithm) :-
     length(Algorithms, Kinds),
     Last is Count - 1,
@@ -75,7 +81,7 @@ in_turn(Count, Algorithms, Algorithm) :-
     nth0(Index, Algorithms, Algorithm).
 
 settings(Options, [setting(seed, Seed)|Settings]) :-
-    setting_facts(Options, Settings),
+    setting_facts(learning_start, Options, Settings),
     option(seed(Seed), Options, random).
 
 furnish(_, _, Host) :-

@@ -1,4 +1,4 @@
-% Expects: parameters; default(start, now).
+% Expects: parameters; the parameter `start`.
 % Gives: await_order/0.
 
 %!  await_order is det.

@@ -1,4 +1,4 @@
-% Expects: parameters, keep; default(seed, random).
+% Expects: parameters, keep; the parameter `seed`.
 % Gives: seed_chance/1, seed_chance_here/0, chance_turn/1; state chance/1.
 
 :- dynamic chance/1.

@@ -21,7 +21,7 @@
     setting(Name, Value) replace the defaults.
 */
 
-:- discontiguous default/2.
+:- discontiguous default/4.
 :- include('../lib/parameters').
 :- include('../lib/keep').
 :- include('../lib/clones').
@@ -29,8 +29,8 @@
 :- use_module(library(lists)).
 :- dynamic arrival/1.
 
-default(tick, 1).               % seconds: the step of time
-default(strategy, conscientious).
+default(tick, 1, range(0.01, 100, 0.01), "seconds: the step of time").
+default(strategy, conscientious, ground, "of migration, see next_host/2").
 
 live :-
     endowed,

@@ -7,7 +7,7 @@
 :- use_module('../../prolog/typhon',
               [agent_create/3, agent_send/2, remote/2]).
 :- use_module('../../prolog/typhon/kernel/base/options', [check_options/2]).
-:- use_module('../lib/settings', [setting_facts/2]).
+:- use_module('../lib/settings', [setting_facts/3]).
 :- use_module('../lib/starts', [starts/4]).
 :- use_module(library(apply), [maplist/2, maplist/4, maplist/5]).
 :- use_module(library(error), [must_be/2]).
@@ -21,7 +21,9 @@ the cookie, also if another process started the hosts.
 *Threading*: any thread; no state.
 */
 
-:- multifile typhon_options:declared/4.
+:- multifile
+    agent_settings:takes/4,
+    typhon_options:declared/4.
 
 %!  population_start(+Sequence, +Hosts, +Tasks:list(pair), +Options,
 %!                   -Agents) is det.
@@ -41,7 +43,7 @@ the cookie, also if another process started the hosts.
 %   To limit a queue to q_th agents, start the hosts with the capacity
 %   q_th + 2: the queue and the worker need one each.
 %
-%   @error domain_error(population_option, Option)
+%   @error domain_error(population_option, Option), domain_error(setting, X)
 %   @error type_error(list, X), type_error(pair, X), domain_error(hosts, []),
 %   existence_error(host, Host), host_unreachable(Host)
 
@@ -50,10 +52,11 @@ population_start(Sequence, Hosts, Tasks, Options, Agents) :-
     must_be(list(atom), Hosts),
     must_be(list(pair), Tasks),
     check_options(population_option, Options),
+    setting_facts(population_start, Options, Settings),
     maplist(furnish(Sequence), Hosts),
     length(Tasks, Count),
     starts(Count, Hosts, Options, Starts),
-    findall(Facts, kind(Sequence, Tasks, Options, Facts), Kinds),
+    findall(Facts, kind(Sequence, Tasks, Settings, Facts), Kinds),
     findall(Number, between(1, Count, Number), Numbers),
     maplist(create, Numbers, Kinds, Starts, Agents),
     forall(member(Agent, Agents), agent_send(Agent, begin)).
@@ -61,6 +64,9 @@ population_start(Sequence, Hosts, Tasks, Options, Agents) :-
 typhon_options:declared(population_option, starts(X), list(atom), X).
 typhon_options:declared(population_option, seed(X), integer, X).
 typhon_options:declared(population_option, settings(X), list, X).
+
+agent_settings:takes(population_start, [agents(sync/specialist)], [start],
+                     refused).
 
 %   A busy worker has no tuple, but its task has one.
 
@@ -102,15 +108,14 @@ furnish(Host, What, _, Program, Facts) :-
           ( remote(Host, take(furnished(What))),
             throw(Error) )).
 
-%   kind(+Sequence, +Tasks, +Options, -Facts): Facts are the initial facts of
+%   kind(+Sequence, +Tasks, +Settings, -Facts): Facts are the initial facts of
 %   the agents for each task in turn.
 
-kind(Sequence, Tasks, Options,
+kind(Sequence, Tasks, Settings,
      [ sequence(Sequence), task(Task, Goal), previous(Previous),
        setting(start, order)
      | Settings
      ]) :-
-    setting_facts(Options, Settings),
     nth1(Number, Tasks, Task-Goal),
     (   nth1(Before, Tasks, Previous-_),
         Before =:= Number - 1

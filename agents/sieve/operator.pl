@@ -8,7 +8,7 @@
               [agent_create/3, agent_send/2, remote/2]).
 :- use_module('../../prolog/typhon/kernel/base/options', [check_options/2]).
 :- use_module('../../prolog/typhon/kernel/program/paths', []).
-:- use_module('../lib/settings', [setting_facts/2]).
+:- use_module('../lib/settings', [setting_facts/3]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [memberchk/2]).
@@ -34,7 +34,9 @@ An application is a payload file, such as payloads(sieve/bits), that provides
 *Threading*: any thread; no state.
 */
 
-:- multifile typhon_options:declared/4.
+:- multifile
+    agent_settings:takes/4,
+    typhon_options:declared/4.
 
 %!  sieve_start(+Hosts, +Application, +Options) is det.
 %
@@ -42,17 +44,21 @@ An application is a payload file, such as payloads(sieve/bits), that provides
 %   Options: settings(Pairs), Name-Value, to replace the defaults in
 %   parameters.pl, for the guards and all antibodies they release.
 %
-%   @error domain_error(sieve_option, Option)
+%   @error domain_error(sieve_option, Option), domain_error(setting, X)
 %   @error type_error(list, X), existence_error(host, Host),
 %   host_unreachable(Host)
 
 sieve_start(Hosts, Application, Options) :-
     must_be(list(atom), Hosts),
     check_options(sieve_option, Options),
-    setting_facts(Options, Settings),
+    setting_facts(sieve_start, Options, Settings),
     maplist(guarded(Application, Settings), Hosts).
 
 typhon_options:declared(sieve_option, settings(X), list, X).
+
+agent_settings:takes(sieve_start,
+                     [agents(sieve/guard), agents(sieve/antibody)], [], taken).
+agent_settings:takes(antibody_release, [agents(sieve/antibody)], [], taken).
 
 guarded(_, _, Host) :-
     remote(Host, sense(guard(_))),
@@ -90,7 +96,7 @@ attack(Antigen, Host) :-
 
 antibody_release(Host, Application, Antibody, Options, Agent) :-
     check_options(sieve_option, Options),
-    setting_facts(Options, Settings),
+    setting_facts(antibody_release, Options, Settings),
     (   memberchk(setting(gamma, Gamma), Settings)
     ->  true
     ;   Gamma = 1.0

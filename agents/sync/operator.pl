@@ -9,7 +9,7 @@
               [agent_create/3, agent_send/2, remote/2]).
 :- use_module('../../prolog/typhon/kernel/base/options', [check_options/2]).
 :- use_module('../../prolog/typhon/kernel/program/paths', []).
-:- use_module('../lib/settings', [unknown_setting/2]).
+:- use_module('../lib/settings', [setting_facts/3]).
 :- use_module('../lib/starts', [starts/4]).
 :- use_module(library(apply), [foldl/4, include/3, maplist/2, maplist/3]).
 :- use_module(library(error),
@@ -35,7 +35,9 @@ stop, as in sleep(1).
 *Threading*: any thread.
 */
 
-:- multifile typhon_options:declared/4.
+:- multifile
+    agent_settings:takes/4,
+    typhon_options:declared/4.
 
 %!  sequence_start(+Sequence, +Hosts, +Tasks, +Options, -Agents) is det.
 %
@@ -51,12 +53,10 @@ stop, as in sleep(1).
 %     - after(+Pairs): Task-(Other:First): a host that takes part in the
 %       sequence Other executes Task only after First of Other
 %     - settings(+Pairs): Name-Value, to replace the defaults in traveller.pl
-%       of `delta`, `theta`, `maximum`, `window`, `patience`: numbers above 0;
-%       or of `strategy`, a strategy of next_host/2
 %
 %   @error type_error(pair, X), domain_error(distinct_tasks, Names)
 %   @error domain_error(sequence_option, Option)
-%   @error domain_error(setting, X): unknown, or no such value
+%   @error domain_error(setting, X): unknown, or not in its range
 %   @error host_unreachable(Host), existence_error(host, Host) and others
 %   of agent_create/3
 
@@ -127,9 +127,10 @@ typhon_options:declared(sequence_option, pool(X), atom, X).
 typhon_options:declared(sequence_option, after(X), list(pair), X).
 typhon_options:declared(sequence_option, settings(X), list, X).
 
+agent_settings:takes(sequence_start, [agents(sync/traveller)], [start], refused).
+
 traveller_facts(Options, [setting(start, order)|Facts]) :-
-    option(settings(Pairs), Options, []),
-    maplist(setting_fact, Pairs, Settings),
+    setting_facts(sequence_start, Options, Settings),
     option(after(Afters), Options, []),
     findall(Fact,
             ( option(pool(Pool), Options), Fact = setting(pool, Pool)
@@ -137,18 +138,6 @@ traveller_facts(Options, [setting(start, order)|Facts]) :-
               Fact = after(Task, Other, First) ),
             More),
     append(Settings, More, Facts).
-
-setting_fact(strategy-Strategy, setting(strategy, Strategy)) :-
-    ground(Strategy),
-    !.
-setting_fact(Name-Value, setting(Name, Value)) :-
-    memberchk(Name, [delta, theta, maximum, window, patience]),
-    number(Value),
-    Value > 0,
-    !.
-setting_fact(Setting, _) :-
-    unknown_setting([delta, theta, maximum, window, patience, strategy],
-                    Setting).
 
 %   The default is one agent on each of `starts`, if that option is given.
 

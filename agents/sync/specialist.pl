@@ -20,11 +20,13 @@
     left(Sequence).
 */
 
-default(psi, 100).              % the action potential at the beginning
-default(kappa, 1).
-default(omega, 5).              % length of the history
-default(threshold, 0.01).       % below it an action potential counts as zero
-default(start, now).            % or `order`: waits for the message `begin`
+default(psi, 100, range(1, 10000, 0.5),
+        "the action potential at the beginning").
+default(kappa, 1, range(0.01, 100, 0.01), "of equation 6.9").
+default(omega, 5, range(1, 1000, 1), "length of the history").
+default(threshold, 0.01, range(0, 100, 0.0001),
+        "below it an action potential counts as zero").
+default(start, now, [now, order], "order: waits for the message begin").
 
 main :-
     await_order,

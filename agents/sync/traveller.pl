@@ -24,13 +24,15 @@
     agent moves on.
 */
 
-default(delta, 0.5).             % penalty bias
-default(theta, 15).              % initial value of a history
-default(maximum, 100).           % of a potential; its initial value, too
-default(window, 15).             % length of the history
-default(strategy, conscientious). % of migration
-default(patience, 1).            % seconds between attempts to leave a host
-default(start, now).             % or `order`: waits for the message `begin`
+default(delta, 0.5, range(0.01, 100, 0.01), "penalty bias").
+default(theta, 15, range(0.1, 1000, 0.1), "initial value of a history").
+default(maximum, 100, range(1, 100000, 0.5),
+        "of a potential; its initial value, too").
+default(window, 15, range(1, 1000, 1), "length of the history").
+default(strategy, conscientious, ground, "of migration, see next_host/2").
+default(patience, 1, range(0.01, 1000, 0.01),
+        "seconds between attempts to leave a host").
+default(start, now, [now, order], "order: waits for the message begin").
 
 main :-
     await_order,

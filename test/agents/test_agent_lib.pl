@@ -7,7 +7,14 @@
 :- use_module('../lib/fixtures',
               [create/3, wait_state/2, with_hosts/2]).
 :- use_module('../lib/texts', [write_file/2]).
+:- use_module('../../agents/allocation/auctions', []).
+:- use_module('../../agents/allocation/operator', []).
+:- use_module('../../agents/hierarchy/operator', []).
+:- use_module('../../agents/learning/operator', []).
 :- use_module('../../agents/lib/settings').
+:- use_module('../../agents/population/operator', []).
+:- use_module('../../agents/sieve/operator', []).
+:- use_module('../../agents/sync/operator', []).
 :- use_module('../../prolog/typhon/kernel/base/prng', []).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [append/3, max_list/2, member/2, min_list/2]).
@@ -26,8 +33,8 @@
     refusing/1,
     setting/2.
 
-default(seed, random).
-default(pause, 5).
+default(seed, random, [random], "").
+default(pause, 5, range(0, 10, 1), "").
 
 %   Words of agents.
 
@@ -89,7 +96,7 @@ included(Libs, Line) :-
 ordered(Start, A) :-
     with_program([parameters, await_order],
                  [ ':- agent(ordered, [state([setting/2])]).',
-                   'default(start, now).',
+                   'default(start, now, [now, order], "").',
                    'main :- await_order, result(began).',
                    '' ],
                  File,
@@ -174,19 +181,83 @@ test(messages_are_told_to_agents_that_live,
 test(settings_as_facts,
      [ forall(member(Options-Facts,
                      [ []-[], [settings([])]-[], [other(x)]-[],
-                       [settings([a-1, b-c])]-[setting(a, 1), setting(b, c)] ])),
+                       [settings([delta-1, strategy-random])]
+                       - [setting(delta, 1), setting(strategy, random)] ])),
        true(Facts0 == Facts) ]) :-
-    setting_facts(Options, Facts0).
-test(settings_that_are_known, Pairs == [a-1]) :-
-    known_settings([a, b], [settings([a-1])], Pairs).
+    setting_facts(sequence_start, Options, Facts0).
+test(settings_of_payloads, Facts == [setting(size, 5)]) :-
+    setting_facts(learning_start, [settings([size-5])], Facts).
 test(unknown_setting_is_refused,
-     throws(error(domain_error(setting, c-1), context(_, 'there are a, b')))) :-
-    known_settings([a, b], [settings([a-1, c-1])], _).
-test(settings_that_are_no_pairs,
-     [ forall(member(Goal, [setting_facts(Options, _),
-                            known_settings([a], Options, _)])),
-       error(type_error(_, _)) ]) :-
-    Options = [settings([a])],
+     throws(error(domain_error(setting, c-1),
+                  context(_, 'there are watch, patience')))) :-
+    setting_facts(robot_start, [settings([watch-10, c-1])], _).
+test(settings_that_are_no_pairs, error(type_error(_, _))) :-
+    setting_facts(sequence_start, [settings([a])], _).
+test(defaults_are_in_their_ranges, Wrong == []) :-
+    findall(Name-Value, ( declared(Predicate, Name, Value, _),
+                          \+ accepted(Predicate, Name-Value) ), Wrong).
+test(ends_of_ranges_are_accepted, Refused == []) :-
+    findall(Name-End, ( declared(Predicate, Name, _, Range),
+                        end_of(Range, End, _),
+                        \+ accepted(Predicate, Name-End) ), Refused).
+test(values_beyond_a_range_are_refused_by_name, Wrong == []) :-
+    findall(Name-Beyond, ( declared(Predicate, Name, _, Range),
+                           end_of(Range, End, Beyond),
+                           \+ refused(Predicate, Name-Beyond, End) ), Wrong).
+test(integers_only,
+     throws(error(domain_error(setting, window-1.5),
+                  context(_, 'window is an integer from 1 to 1000: length of \c
+                              the history')))) :-
+    setting_facts(sequence_start, [settings([window-1.5])], _).
+
+%   Each mechanism checks before it does anything else.
+
+test(mechanism_refuses, [ forall(mechanism(Goal, Setting)),
+                          error(domain_error(setting, Setting)) ]) :-
     call(Goal).
 
 :- end_tests(agent_lib).
+
+declared(Predicate, Name, Value, Range) :-
+    agent_settings:takes(Predicate, _, _, _),
+    setting_declared(Predicate, Declared),
+    member(default(Name, Value, Range, _), Declared).
+
+%   end_of(+Range, -End, -Beyond): Beyond is not in Range.
+
+end_of(range(From, To, Step), End, Beyond) :-
+    ( End = From, Beyond is From-Step ; End = To, Beyond is To+Step ).
+end_of([One|Others], End, Beyond) :-
+    member(Choice, [One|Others]),
+    (   Choice = range(_, _, _)
+    ->  end_of(Choice, End, Beyond)
+    ;   End = Choice,
+        Beyond = no(Choice)
+    ).
+
+accepted(Predicate, Pair) :-
+    catch(setting_facts(Predicate, [settings([Pair])], _), error(_, _), fail).
+
+refused(Predicate, Pair, End) :-
+    catch(( setting_facts(Predicate, [settings([Pair])], _), fail ),
+          error(domain_error(setting, Pair), context(_, Text)), true),
+    nonvar(Text),
+    format(atom(Named), '~w', [End]),
+    sub_atom(Text, _, _, _, Named).
+
+mechanism(sync_operator:sequence_start(s, [], [t-true], [settings([delta-0])], _),
+          delta-0).
+mechanism(population_operator:population_start(s, [], [], [settings([tick-0])], _),
+          tick-0).
+mechanism(learning_operator:learning_start([], none, [], [settings([epsilon-2])], _),
+          epsilon-2).
+mechanism(sieve_operator:sieve_start([], none, [settings([calls-0])]), calls-0).
+mechanism(allocation_operator:task_allocate(task(t, [1-[a]], []), nowhere,
+                                            [settings([bi_min-(-1)])], _),
+          bi_min-(-1)).
+mechanism(allocation_operator:robot_start(nowhere, [], [settings([watch-0])]),
+          watch-0).
+mechanism(auction_operator:auction_start(anta, [], [settings([tries-(-1)])]),
+          tries-(-1)).
+mechanism(hierarchy_operator:hierarchy_start([], none, [settings([workers-0])], _),
+          workers-0).

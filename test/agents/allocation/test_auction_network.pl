@@ -344,14 +344,14 @@ patient([slack(60), settings([renew-100, contract-400, bi_min-5])]).
 
 test(nodes_with_one_channel_take_turns,
      [ forall(member(Sending-Hosts-Links-Expected,
-                     [ [sending-one_by_one(1)]-2-8-4,
-                       [sending-one_by_one(0.5)]-2-8-2.0,
-                       [sending-one_by_one(0.5)]-2-3-1, % never less than a hop
-                       [sending-at_once]-2-8-1, []-2-8-1 ])),
+                     [ one_by_one(1)-2-8-4, one_by_one(0.5)-2-8-2.0,
+                       one_by_one(0.5)-2-3-1,       % never less than a hop
+                       at_once-2-8-1 ])),
        Turns =:= Expected ]) :-
     length(Names, Hosts),
     length(Edges, Links),
-    findall(T, auction_operator:in_turn(Sending, Names, Edges, T), [Turns]).
+    findall(T, auction_operator:in_turn([setting(sending, Sending)], Names,
+                                        Edges, T), [Turns]).
 
 test(no_such_mechanism, error(type_error(mechanism, vickrey))) :-
     auction_start(vickrey, [], []).
