@@ -103,7 +103,7 @@ range_of(Values, range(From, To, Step)) :-
     From < To,
     !,
     step(Values, From, To, Step).
-range_of(Values, one_of(Values)).
+range_of(Values, Values).
 
 sampled(uniform(From, To), From, range(From, To, Step)) :- step([To], From, To, Step).
 sampled(loguniform(From, To), From, range(From, To, Step)) :- step([0.5], From, To, Step).

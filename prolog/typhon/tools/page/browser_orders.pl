@@ -5,7 +5,7 @@
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(error),
               [domain_error/2, existence_error/2, type_error/2]).
-:- use_module(library(lists), [append/3, member/2, nth1/3]).
+:- use_module(library(lists), [append/3, member/2, nth1/3, selectchk/3]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module('../../kernel/host',
               [host/3, host_resolve/2, host_start/2, host_stop/1]).
@@ -21,7 +21,7 @@
               [ name_in/3, on_console/1, problem_dicts/2, program_at/2,
                 read_text/3, saying/2, term_in/4, text_file/3, text_in/3 ]).
 :- use_module(models, [model_set_up/1]).
-:- use_module(overlays, [mechanism_file/2]).
+:- use_module(overlays, [mechanism_operator/2]).
 :- use_module(protocol, [name_text/2, text/2]).
 :- use_module(runs, [run_control/2]).
 
@@ -47,7 +47,7 @@ and of the operators of mechanisms.  Terms are sent as text.
   | host_stop     | `host`                                                  |
   | network_start | `topology`, `options`                                   |
   | network_stop  | `network`                                               |
-  | mechanism     | `mechanism`, `predicate`, `arguments`: `hosts` or texts |
+  | mechanism     | `mechanism`, `predicate`, `arguments`: see mechanism_run/4 |
   | go, pause, step |                                                       |
   | speed         | `speed`: of virtual time, see module `runs`             |
   | set_up        | `values`: of the model, see module `models`             |
@@ -223,14 +223,15 @@ prolog:error_message(page_failed(What)) -->
 %   mechanism_run(+Mechanism, +Name, +Arguments:list, -Results) is det.
 %
 %   Call the predicate Name of the operator of Mechanism.  Each of Arguments is
-%   the text of a term, a list of addresses, or an empty text for an output
-%   argument; Results are the texts of the output arguments.
+%   the text of a term, a list of addresses, _{options, settings} with the texts of
+%   the options and of settings by name, or an empty text for an output argument;
+%   Results are the texts of the output arguments.
 %
 %   @error existence_error(mechanism, Mechanism), existence_error(procedure, PI)
 %   @error page_failed(PI), and the errors of the operator
 
 mechanism_run(Mechanism, Name, Arguments, Results) :-
-    operator(Mechanism, Module),
+    mechanism_operator(Mechanism, Module),
     maplist(argument, Arguments, Terms),
     length(Terms, Arity),
     module_property(Module, exports(Exports)),
@@ -247,13 +248,6 @@ mechanism_run(Mechanism, Name, Arguments, Results) :-
     ;   throw(error(page_failed(Name), _))
     ).
 
-operator(Mechanism, Module) :-
-    (   mechanism_file(Mechanism, File)
-    ->  load_files(File, [if(not_loaded), imports([])]),
-        module_property(Module, file(File))
-    ;   existence_error(mechanism, Mechanism)
-    ).
-
 nth_unbound(N, Terms) :-
     nth1(N, Terms, Term),
     var(Term).
@@ -264,8 +258,23 @@ argument("", _) =>
     true.
 argument(Text, Term), string(Text) =>
     read_text(argument, Text, Term).
+argument(_{options:Text, settings:Texts}, Options) =>
+    argument(Text, Options0),
+    dict_pairs(Texts, _, Pairs0),
+    findall(Name-Value, ( member(Name-Written, Pairs0),
+                          read_text(Name, Written, Value) ), Pairs),
+    with_settings(Options0, Pairs, Options).
 argument(Other, _) =>
     type_error(text, Other).
+
+%   Settings that are written among the options count first.
+
+with_settings(Options0, Pairs, [settings(All)|Options]) :-
+    (   selectchk(settings(Own), Options0, Options)
+    ->  append(Own, Pairs, All)
+    ;   Options = Options0,
+        All = Pairs
+    ).
 
 address(Text, Address) :-
     atom_string(Address, Text).

@@ -3,10 +3,11 @@
             models_stop/0,
             model_shown/0,
             model_dict/2,               % +Message, -Dict
-            model_set_up/1              % +Message
+            model_set_up/1,             % +Message
+            parameter_dict/2            % +Parameter, -Dict
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(apply), [maplist/3]).
+:- use_module(library(apply), [foldl/4, maplist/3, partition/4]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2]).
@@ -25,7 +26,8 @@ call(Goal, Request), with these requests:
 
   - about(-Title, -Parameters)
     Parameters are parameter(Name, Value, Range): Value is the one at first,
-    Range is range(From, To, Step), or one_of(Values)
+    Range is range(From, To, Step); a list of values, one of which may be a
+    range; or anything else, for a field without a slider
   - set_up(+Pairs)
     start a network; Pairs are Name-Value, with all parameters
   - run
@@ -161,20 +163,39 @@ end_run(Goal) :-
 model_dict(Message, Dict) :-
     the_model(Goal),
     call(Goal, about(Title, Parameters)),
-    maplist(parameter_dict, Parameters, Dicts),
+    maplist(parameter_shown, Parameters, Dicts),
     name_text(Title, TitleText),
     with_mutex(typhon_page_models, run_seen(Goal, Message, Run)),
     Dict = Run.put(_{title:TitleText, parameters:Dicts}).
 
-parameter_dict(parameter(Name, First, Range), Dict) :-
+parameter_shown(parameter(Name, First, Range), Dict) :-
     ( value(Name, Value) -> true ; Value = First ),
+    parameter_dict(parameter(Name, Value, Range), Dict).
+
+%!  parameter_dict(+Parameter, -Dict) is det.
+%
+%   Parameter is parameter(Name, Value, Range).  Dict is _{name, value}, with
+%   _{from, to, step} of a range, and _{values} of a list: texts, but for numbers
+%   of a range.
+
+parameter_dict(parameter(Name, Value, Range), Dict) :-
     maplist(text, [Name, Value], [NameText, ValueText]),
     range_dict(Range, Dict0),
     Dict = Dict0.put(_{name:NameText, value:ValueText}).
 
-range_dict(range(From, To, Step), _{from:From, to:To, step:Step}).
-range_dict(one_of(Values), _{values:Texts}) :-
-    maplist(text, Values, Texts).
+range_dict(range(From, To, Step), Dict) =>
+    Dict = _{from:From, to:To, step:Step}.
+range_dict(Choices, Dict), is_list(Choices) =>
+    partition(is_range, Choices, Ranges, Values),
+    maplist(text, Values, Texts),
+    foldl(range_added, Ranges, _{values:Texts}, Dict).
+range_dict(_, Dict) =>
+    Dict = _{}.
+
+is_range(range(_, _, _)).
+
+range_added(Range, Dict0, Dict0.put(Dict)) :-
+    range_dict(Range, Dict).
 
 run_seen(Goal, Message, Dict) :-
     run_of(Number, _, Start),

@@ -7,10 +7,12 @@
             event_rows/3,               % +Events, +Overlays, -Rows
             overlay_dicts/2,            % +Overlays, -Dicts
             mechanism_dicts/1,          % -Dicts
-            mechanism_file/2,           % +Name, -File
+            mechanism_operator/2,       % +Name, -Module
+            mechanism_parameters/3,     % +Name, +Predicate, -Dicts
             program_names/1             % -Names
           ]).
 :- use_module(library(apply), [foldl/4, maplist/2, maplist/3]).
+:- use_module(library(error), [existence_error/2]).
 :- use_module(library(filesex), [directory_file_path/3, directory_member/3]).
 :- use_module(library(lists), [append/2, append/3, member/2]).
 :- autoload(library(pldoc/doc_modes), [process_modes/6]).
@@ -19,6 +21,7 @@
               [ prolog_close_source/1, prolog_open_source/2,
                 prolog_read_source_term/4 ]).
 :- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(models, [parameter_dict/2]).
 :- use_module(protocol, [event_row/2, name_text/2, number_json/2, text/2]).
 :- use_module('../../kernel/program', []).        % where agents(Name) is found
 
@@ -41,14 +44,18 @@ denote kinds, `link` for values of links.  The page reads these facts as data,
 and neither loads the file nor calls them; agents do not use them either.
 
 The operator of a mechanism is the module by which users control it.  The page
-reads the arguments of its predicates from their comments, so that it knows no
-mechanism by name.
+reads the arguments of its predicates from their comments, and has their settings
+from parameter/3, so that it knows no mechanism by name.
 
 *Threading*: one thread at a time starts and stops; any thread queries.  Each
 query reads the files again.
 */
 
 :- dynamic shown/1.                     % overlays of the page that is served
+
+:- multifile
+    parameter/3.                % Predicate, Parameter, About: a setting that Predicate
+                                % takes, parameter(Name, Value, Range) as of a model
 
 %!  overlays_start(+Files) is det.
 %!  overlays_stop is det.
@@ -243,9 +250,35 @@ is_program(File) :-
     functor(Declaration, agent, Arity),
     memberchk(Arity, [1,2]).
 
-%!  mechanism_file(+Name, -File) is semidet.
+%!  mechanism_operator(+Name, -Module) is det.
 %
-%   File is the operator of the mechanism Name.
+%   Module is the operator of the mechanism Name, which is loaded.
+%
+%   @error existence_error(mechanism, Name)
+
+mechanism_operator(Name, Module) :-
+    (   mechanism_file(Name, File)
+    ->  load_files(File, [if(not_loaded), imports([])]),
+        module_property(Module, file(File))
+    ;   existence_error(mechanism, Name)
+    ).
+
+%!  mechanism_parameters(+Name, +Predicate, -Dicts) is det.
+%
+%   Dicts are _{name, value, about}, and what parameter_dict/2 adds, for each
+%   setting that Predicate of the mechanism Name takes.
+%
+%   @error existence_error(mechanism, Name)
+
+mechanism_parameters(Name, Predicate, Dicts) :-
+    mechanism_operator(Name, _),
+    findall(Dict,
+            ( parameter(Predicate, Parameter, About),
+              parameter_dict(Parameter, Dict0),
+              put_dict(about, Dict0, About, Dict) ),
+            Dicts).
+
+%   mechanism_file(+Name, -File) is semidet: File is its operator.
 
 mechanism_file(Name, File) :-
     folder(Dir),

@@ -19,7 +19,7 @@
 :- use_module('../../tools', [host_report/2]).
 :- use_module('../administration', [agent_property/2]).
 :- use_module('../source_view', [goals_shown/5]).
-:- use_module(overlays, [mechanism_dicts/1, program_names/1]).
+:- use_module(overlays, [mechanism_dicts/1, mechanism_parameters/3, program_names/1]).
 :- use_module(protocol,
               [ agent_summary_dict/2, name_text/2, page_time/2, place_text/2,
                 scene_dict/3, text/2 ]).
@@ -38,6 +38,7 @@
   | host       | `host`  | all properties of it                          |
   | networks   |         | the networks that this process has started    |
   | mechanisms |         | the operators of `agents/`, and their arguments |
+  | parameters | `mechanism`, `predicate` | the settings that it takes, with ranges |
   | programs   |         | names of agent programs that are found        |
   | tree       |         | supervisors and the agents below them         |
   | world      |         | the picture of the world, SVG                 |
@@ -90,6 +91,10 @@ answer(networks, _, Dicts) :-
     findall(Dict, network_dict(Dict), Dicts).
 answer(mechanisms, _, Dicts) :-
     mechanism_dicts(Dicts).
+answer(parameters, Message, Dicts) :-
+    name_in(mechanism, Message, Mechanism),
+    name_in(predicate, Message, Predicate),
+    mechanism_parameters(Mechanism, Predicate, Dicts).
 answer(programs, _, Names) :-
     program_names(Names).
 answer(tree, _, Dicts) :-

@@ -87,6 +87,19 @@ reads(Selector, Text) :-
            [Selector, Text]),
     see(Script).
 
+%   The field beside a slider of the dialog has its value.
+
+slide(Name, Place, Value) :-
+    at(Browser, _, _),
+    browser_run(Browser,
+                "const slider = [...document.querySelectorAll('.parameters input')]
+                     .find(i => i.ariaLabel === `${args[0]}, slider`);
+                 slider.value = args[1];
+                 slider.dispatchEvent(new Event('input'));
+                 return slider.nextElementSibling.value;",
+                [Name, Place], Shown),
+    assertion(Shown == Value).
+
 fill(Label, Text) :-
     at(Browser, _, _),
     reads("dialog label", Label),
@@ -455,14 +468,26 @@ scene(a_mechanism_is_started) :-
     sees("const s = document.querySelector('dialog select'); s.value = \c
           [...s.options].find(o => o.text === 'sync: sequence start').value; \c
           s.dispatchEvent(new Event('change'))", _),
-    reads("dialog .about", "delta"),
+    reads("dialog .about", "traveller.pl"),
     fill("Sequence", "line"),
     fill("Tasks", "[drill-sleep(1), paint-sleep(1)]"),
     fill("Options", "[agents(4)]"),
+    sees("return [...document.querySelectorAll('.parameters input[type=range]')]\c
+          .map(s => s.ariaLabel).join()", Sliders),
+    assertion(Sliders == "delta, slider,theta, slider,maximum, slider,\c
+                          window, slider,patience, slider"),
+    slide("delta", "0.2", "0.81"),
+    slide("patience", "0", "0.01"),
     click("dialog button[type=submit]"),
     see("return !document.querySelector('dialog')"),
     see("return [...typhon.store.agents.values()].filter(a => \c
          a.name.startsWith('traveller')).length === 4"),
+    sees("return [...typhon.store.agents.values()].find(a => \c
+          a.name.startsWith('traveller')).id", Id),
+    atom_string(Agent, Id),
+    agent_property(Agent, facts(Facts)),
+    findall(Name-Value, member(setting(Name, Value), Facts), Settings),
+    assertion(Settings == [start-order, delta-0.81, patience-0.01]),
     view(map),
     see("return document.querySelector('#details').hidden && \c
          typhon.store.counts.arrived > 20"),

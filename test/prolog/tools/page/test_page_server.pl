@@ -448,7 +448,20 @@ test(mechanisms, condition(installed(studies))) :-
     assertion(Predicate.arguments == [["+","Sequence"], ["+","Hosts"],
                                       ["+","Tasks"], ["+","Options"],
                                       ["-","Agents"]]),
-    assertion(sub_string(Predicate.about, _, _, _, "delta")).
+    assertion(sub_string(Predicate.about, _, _, _, "settings(+Pairs)")).
+
+test(parameters, condition(installed(studies))) :-
+    page(Base, ( answer(Base, _{ask:"parameters", mechanism:"sync",
+                                predicate:"sequence_start"}, All),
+                 answer(Base, _{ask:"parameters", mechanism:"sync",
+                                predicate:"task_fail"}, []),
+                 fails(Base, _{ask:"parameters", mechanism:"../sync",
+                               predicate:"task_fail"}, ["mechanism"]) )),
+    member(Delta, All),
+    Delta.name == "delta",
+    !,
+    assertion(_{ value:"0.5", from:0.01, to:100, step:0.01,
+                 about:"penalty bias" } :< Delta).
 
 test(programs, condition(installed(studies))) :-
     page(Base, answer(Base, _{ask:"programs"}, Names)),
@@ -701,6 +714,12 @@ test(mechanism, [condition(installed(studies)), Done == ["[]"]]) :-
                                predicate:"sequence_start",
                                arguments:["s", Hosts, "[a-true]",
                                           "[agents(0)]", ""] }, Done),
+                 fails(Base, _{ do:"mechanism", mechanism:"sync",
+                                predicate:"sequence_start",
+                                arguments:["s", Hosts, "[a-true]",
+                                           _{ options:"[agents(0)]",
+                                              settings:_{delta:"0"} }, ""] },
+                       ["delta", "from 0.01 to 100"]),
                  fails(Base, _{ do:"mechanism", mechanism:"sync",
                                 predicate:"halt", arguments:[] }, ["halt/0"]),
                  fails(Base, _{ do:"mechanism", mechanism:"../sync",

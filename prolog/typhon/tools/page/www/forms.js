@@ -63,6 +63,43 @@ export function select(label, options, value = options[0]?.[0]) {
   return made;
 }
 
+// A parameter: a slider with a field, in which other values fit, too; a list of
+// values; or a field.
+export function parameter({ name, value, values, from, to, step, about = '' }) {
+  const ranged = from !== undefined;
+  const field = values && !ranged
+    ? element('select', { 'aria-label': name }, ...values.map(text =>
+      element('option', { value: text }, text)))
+    : element('input', { 'aria-label': name,
+      ...(ranged && !values ? { type: 'number', step: 'any' } : {}) });
+  field.value = value;
+  const slider = ranged ? sliderOf({ name, from, to, step }, field) : null;
+  return { name, value: () => field.value, changed: () => field.value !== value,
+    made: element('div', { class: 'model-field' }, element('span', {}, name), slider,
+      field, about ? element('small', { class: 'muted' }, about) : null) };
+}
+
+const WIDE = 1000;              // steps
+
+// That of a wide range is slow at first, so that it reaches small values as well.
+function sliderOf({ name, from, to, step }, field) {
+  const wide = (to - from) / step > WIDE;
+  const slider = element('input', { type: 'range', 'aria-label': `${name}, slider`,
+    ...(wide ? { min: 0, max: 1, step: 1 / WIDE } : { min: from, max: to, step }),
+    oninput: () => {
+      field.value = wide ? bent(Number(slider.value)) : slider.value;
+      slider.setAttribute('aria-valuetext', field.value);
+    } });
+  const bent = part => Number(Math.min(to,
+    from + Math.round(part ** 3 * (to - from) / step) * step).toPrecision(9));
+  field.oninput = () => {
+    slider.value = wide ? Math.cbrt((field.value - from) / (to - from)) : field.value;
+    slider.setAttribute('aria-valuetext', field.value);
+  };
+  field.oninput();
+  return slider;
+}
+
 // Ask for confirmation of an order that cannot be undone.
 export function sure(question, confirm, send) {
   return dialog(question, [], confirm, send);

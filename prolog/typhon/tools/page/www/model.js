@@ -4,6 +4,7 @@
 
 import { Charts, compact } from './charts.js';
 import { button, element } from './dom.js';
+import { parameter } from './forms.js';
 
 const PAUSE = 1000;             // ms between questions, at least
 const MANY = 24;                // plots
@@ -81,22 +82,6 @@ class Model {
     store.reset();
     for (const overlay of overlays) store.overlay(overlay);
   }
-}
-
-// A slider with a field, in which other values fit, too; or a list of values.
-function parameter({ name, value, values, from, to, step }) {
-  const field = values
-    ? element('select', { 'aria-label': name }, ...values.map(text =>
-      element('option', { value: text }, text)))
-    : element('input', { type: 'number', step: 'any', 'aria-label': name });
-  field.value = value;
-  const slider = values ? null : element('input', { type: 'range', min: from, max: to,
-    step, value, 'aria-label': `${name}, slider`,
-    oninput: () => { field.value = slider.value; } });
-  if (slider) field.oninput = () => { slider.value = field.value; };
-  return { name, value: () => field.value,
-    made: element('div', { class: 'model-field' }, element('span', {}, name), slider,
-      field) };
 }
 
 class Measures extends Charts {

@@ -2,7 +2,7 @@
 
 import { button, element } from './dom.js';
 import {
-  dialog, field, quoted, readFile, select, sure,
+  dialog, field, parameter, quoted, readFile, select, sure,
 } from './forms.js';
 import { byName, counted, shortName } from './names.js';
 import { download } from './svg.js';
@@ -256,15 +256,19 @@ export async function mechanismDialog(app) {
   const fields = element('div', { class: 'stack' });
   const about = element('pre', { class: 'about' });
   let inputs = [];
-  const fill = () => {
-    const { arguments: takes, about: text } = all[Number(which.input.value)];
+  const fill = async () => {
+    const at = which.input.value;
+    const { mechanism, name: predicate, arguments: takes, about: text } = all[Number(at)];
+    const parameters = takes.some(([, name]) => name === 'Options')
+      ? await app.ask({ ask: 'parameters', mechanism, predicate }) : [];
+    if (which.input.value !== at) return;       // another one was selected meanwhile
     inputs = takes.filter(([sign]) => sign !== '-').map(([, name]) =>
-      argument(app, name));
+      name === 'Options' ? options(parameters) : argument(app, name));
     fields.replaceChildren(...inputs.map(input => input.element));
     about.textContent = text;
   };
   which.input.addEventListener('change', fill);
-  fill();
+  await fill();
   dialog('Start a mechanism', [which, fields, about], 'Start', async () => {
     const { mechanism, name, arguments: takes } = all[Number(which.input.value)];
     const values = inputs.map(input => input.value());
@@ -273,6 +277,18 @@ export async function mechanismDialog(app) {
     results => [`${name} is done`, ...results.map(text => text.length > 90
       ? `${text.slice(0, 90)}…` : text)].join(': '));
   }, true);
+}
+
+// The option `settings` has a slider or a list for each parameter; those that the
+// user has not changed keep their defaults.
+function options(parameters) {
+  const made = field('Options', { required: true, value: '[]' }, 'a Prolog term');
+  const inputs = parameters.map(parameter);
+  return { element: element('div', { class: 'stack' }, made, inputs.length === 0 ? null
+    : element('fieldset', { class: 'parameters' }, element('legend', {}, 'Settings'),
+      ...inputs.map(input => input.made))),
+  value: () => ({ options: made.input.value, settings: Object.fromEntries(
+    inputs.filter(input => input.changed()).map(input => [input.name, input.value()])) }) };
 }
 
 // Hosts are selected from a list, by default all; other arguments are text.
@@ -290,8 +306,7 @@ function argument(app, name) {
     const made = hostField(app, 'Host');
     return { element: made, value: () => quoted(made.input.value) };
   }
-  const made = field(name, { required: true, value: name === 'Options' ? '[]' : '' },
-    'a Prolog term');
+  const made = field(name, { required: true }, 'a Prolog term');
   return { element: made, value: () => made.input.value };
 }
 
