@@ -5,8 +5,7 @@
 
     Logs of studies have neither hops nor messages, because of their number, so
     the runs are repeated. Memory is sampled each `every` host seconds; the
-    greatest values are printed.  With --list it only prints the runs that it
-    would make.
+    greatest values are printed.  `--help` lists the options.
 */
 
 :- module(counts, []).
@@ -16,6 +15,7 @@
 :- use_module(engine/cases, [case_name/3]).
 :- use_module(engine/catalogue, [studies_named/2]).
 :- use_module(engine/plan, [plans/3, planned/4]).
+:- use_module(engine/program, [run_option/4, run_program/1]).
 :- use_module(engine/memory, [memory_peaks/1, memory_watch/2]).
 :- use_module(engine/run, [run_again/5]).
 :- use_module(engine/studies, [study_load/2]).
@@ -29,14 +29,29 @@
 
 :- public main/1.
 
-opt_type(runs, runs, natural).
-opt_type(seed, seed, integer).
-opt_type(set,  set,  atom).
+opt_type(Name, Name, Type) :-
+    own(Name),
+    run_option(Name, Type, _, _).
 opt_type(every, every, number).
-opt_type(list, list, boolean).
+
+opt_help(help(header),
+"Counts hops and messages of runs of studies, and the memory of agents and hosts\n").
+opt_help(help(usage), " -- STUDY ... [options]").
+opt_help(Name, Help) :-
+    run_option(Name, _, _, Help).
+opt_help(every, "Host seconds from one sample of the memory to the next [2]").
+
+opt_meta(Name, Meta) :-
+    run_option(Name, _, Meta, _).
+
+own(Name) :-
+    member(Name, [runs, seed, set, list]).
 
 main(Argv) :-
-    arguments(Argv, Names, Options),
+    run_program(( arguments(Argv, Names, Options),
+                  command(Names, Options) )).
+
+command(Names, Options) :-
     studies_named(Names, Files),
     maplist(study_load, Files, Studies),
     plans(Studies, Options, Plans),

@@ -14,21 +14,21 @@
 :- use_module(engine/plan,
               [out_directory/2, planned/4, planned_seed/2, plans/3,
                runs_directory/2]).
+:- use_module(engine/program, [run_option/4, run_program/1]).
 :- use_module(engine/report, [print_table/3]).
-:- use_module(engine/signals, [stopping_on_signals/1]).
 :- use_module(engine/sources, [sources_hash/2]).
 :- use_module(engine/store, [run_result/3]).
 :- use_module(engine/studies, [study_load/2, study_title/3]).
 :- use_module(engine/work, [runs_make/4]).
 :- use_module(readings/designs, [readings/4]).
-:- use_module(readings/unprinted, [evidence/2, unprinted/4]).
+:- use_module(readings/unprinted, [evidence/3, unprinted/4]).
 :- use_module(readings/verdicts,
               [best_first/2, gained/3, holds_mostly/1, reachable/3,
                verdicts/4]).
 :- use_module(library(apply), [foldl/4, include/3, maplist/3]).
 :- use_module(library(error), [existence_error/2]).
 :- use_module(library(filesex), [directory_file_path/3, make_directory_path/1]).
-:- use_module(library(lists), [append/2, append/3, list_to_set/2, member/2]).
+:- use_module(library(lists), [append/2, last/2, list_to_set/2, member/2]).
 :- use_module(library(main), [main/0]).
 :- use_module(library(option), [option/2, option/3]).
 
@@ -36,50 +36,43 @@
 
 :- public main/1.
 
-opt_type(runs,    runs,    natural).
-opt_type(seed,    seed,    integer).
-opt_type(jobs,    jobs,    natural).
+opt_type(Name,    Name,    Type) :-
+    own(Name),
+    run_option(Name, Type, _, _).
 opt_type(design,  design,  term).
 opt_type(reading, reading, atom).
 opt_type(study,   study,   atom).
-opt_type(collect, collect, boolean).
-opt_type(out,     out,     atom).
 
 opt_help(help(header),
 "Tries readings of what the thesis does not print, and lists the claims that hold\n").
 opt_help(help(usage), " -- CHAPTER [options]
 
-CHAPTER is sync (5) or population (6).  A claim holds with a reading if it held
-for half of the seeds.").
-opt_help(runs,    "Seeds of each case [2]").
-opt_help(seed,    "The first seed [1]").
-opt_help(jobs,    "Runs at the same time [2]").
+CHAPTER is sieve (3), learning (4), sync (5), population (6) or allocation (7).
+A claim holds with a reading if it held for half of the seeds.").
+opt_help(Name,    Help) :-
+    run_option(Name, _, _, Help).
 opt_help(design,  "one: each value alone; pairs: each two values, too; \c
 random(N): N combinations of all [one]").
 opt_help(reading, "NAME=VALUE,...: only this reading, beside the study as it is. \c
 May be repeated").
 opt_help(study,   "A study whose claims decide, in place of those of the \c
 chapter.  May be repeated").
-opt_help(collect, "Make no runs; show the existing ones [false]").
-opt_help(out,     "Directory of the runs and of the tables [out/readings]").
 
+opt_meta(Name,    Meta) :-
+    run_option(Name, _, Meta, _).
 opt_meta(design,  'DESIGN').
 opt_meta(reading, 'READING').
 opt_meta(study,   'STUDY').
-opt_meta(out,     'DIRECTORY').
+
+own(Name) :-
+    member(Name, [runs, seed, jobs, set, collect, out]).
 
 main(Argv) :-
-    set_stream(user_output, encoding(utf8)),
-    set_stream(user_error, encoding(utf8)),
-    arguments(Argv, Words, Given),
-    append(Given, [runs(2), out('out/readings')], Options),
-    catch(stopping_on_signals(command(Words, Options)),
-          error(Formal, Context),
-          ( print_message(error, error(Formal, Context)),
-            halt(1) )).
+    run_program(( arguments(Argv, Words, Options),
+                  command(Words, Options) )).
 
 command([Chapter], Options) :-
-    evidence(Chapter, _),
+    evidence(Chapter, _, _),
     !,
     studies(Chapter, Options, Studies),
     tried_readings(Chapter, Options, Readings),
@@ -98,11 +91,21 @@ command([Chapter], Options) :-
 command(Words, _) :-
     existence_error(chapter, Words).
 
-studies(Chapter, Options, Studies) :-
-    findall(Name, member(study(Name), Options), Names0),
-    ( Names0 == [] -> evidence(Chapter, Names) ; Names = Names0 ),
-    studies_named(Names, Files),
-    maplist(study_load, Files, Studies).
+%   studies(+Chapter, +Options, -Studies): pairs of a study and the values of
+%   --set that select its cases.
+
+studies(_, Options, Studies) :-
+    findall(Name-[], member(study(Name), Options), Named),
+    Named \== [],
+    !,
+    maplist(loaded, Named, Studies).
+studies(Chapter, _, Studies) :-
+    findall(Name-Sets, evidence(Chapter, Name, Sets), Named),
+    maplist(loaded, Named, Studies).
+
+loaded(Name-Sets, Study-Sets) :-
+    studies_named([Name], [File]),
+    study_load(File, Study).
 
 tried_readings(_, Options, [[]|Readings]) :-
     findall(Reading, ( member(reading(Text), Options), reading(Text, Reading) ),
@@ -123,13 +126,21 @@ changed(Part, Name-Value) :-
     atomic_list_concat([Name, ValueText], =, Part),
     term_to_atom(Value, ValueText).
 
+%   The last value of a parameter counts.
+
 plans_of(Reading, Studies, Options, Plans) :-
-    findall(set(Set),
-            ( member(Name-Value, Reading),
-              format(atom(Set), '~w=~q', [Name, Value]) ),
-            Sets),
-    append(Sets, Options, All),
-    plans(Studies, All, Plans).
+    findall(set(Set), ( member(Value, Reading), set_text(Value, Set) ), Sets),
+    findall(Plan,
+            ( member(Study-Own0, Studies),
+              findall(set(Set), member(Set, Own0), Own),
+              append([Own, Options, Sets], All),
+              plans([Study], All, [Plan]) ),
+            Plans).
+
+%   In a list, because a value that is a list is not to be varied.
+
+set_text(Name-Value, Set) :-
+    format(atom(Set), '~w=[~q]', [Name, Value]).
 
 make(_, Options, 0) :-
     option(collect(true), Options),
@@ -195,7 +206,7 @@ reading_text(Reading, Text) :-
 save(Chapter, Studies, Tried, Options) :-
     out_directory(Options, Out),
     make_directory_path(Out),
-    atom_concat(Chapter, '.tsv', Base),
+    format(atom(Base), 'readings-~w.tsv', [Chapter]),
     directory_file_path(Out, Base, File),
     setup_call_cleanup(
         open(File, write, Stream, [encoding(utf8)]),
@@ -210,11 +221,10 @@ save(Chapter, Studies, Tried, Options) :-
 
 save_origin(Stream, Studies, Options) :-
     current_prolog_flag(version, Version),
-    option(seed(First), Options, 1),
-    option(runs(Runs), Options),
-    Last is First + Runs - 1,
+    findall(Seed, planned_seed(Options, Seed), [First|Seeds]),
+    last([First|Seeds], Last),
     format(Stream, '# SWI-Prolog ~w, seeds ~d to ~d~n', [Version, First, Last]),
-    forall(member(Study, Studies),
+    forall(member(Study-_, Studies),
            ( study_title(Study, Name, _),
              sources_hash(Study, Hash),
              format(Stream, '# ~w: sources ~w~n', [Name, Hash]) )),

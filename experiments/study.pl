@@ -17,9 +17,9 @@
 :- use_module(engine/plan,
               [ planned/4, planned_case/4, planned_real/3, plans/3,
                 real_way/3, runs_directory/2 ]).
+:- use_module(engine/program, [run_option/4, run_program/1]).
 :- use_module(engine/replays, [replay_runs/3]).
 :- use_module(engine/report, [parameter_rows/3, print_table/3]).
-:- use_module(engine/signals, [stopping_on_signals/1]).
 :- use_module(engine/store, [run_result/3]).
 :- use_module(engine/studies, [study_load/2, study_title/3]).
 :- use_module(engine/work, [runs_make/4]).
@@ -38,15 +38,11 @@
 
 :- public main/1.
 
-opt_type(runs,    runs,    natural).
-opt_type(seed,    seed,    integer).
-opt_type(jobs,    jobs,    natural).
-opt_type(set,     set,     atom).
+opt_type(Name,    Name,    Type) :-
+    run_option(Name, Type, _, _).
 opt_type(case,    case,    atom).
 opt_type(logs,    logs,    boolean).
 opt_type(replays, replays, boolean).
-opt_type(list,    list,    boolean).
-opt_type(collect, collect, boolean).
 opt_type(real,    real,    boolean).
 opt_type(page,    page,    boolean).
 opt_type(port,    port,    nonneg).
@@ -55,7 +51,6 @@ opt_type(real_clock, real_clock, number).
 opt_type(machines, machines, atom).
 opt_type(bind,    bind,    atom).
 opt_type(means,   means,   boolean).
-opt_type(out,     out,     atom).
 opt_type(fleet,   fleet,   atom).
 opt_type(redis,   redis,   atom).
 opt_type(user,    user,    atom).
@@ -70,18 +65,13 @@ opt_help(help(usage),
 A STUDY is a file, a figure of the thesis such as 5.6, a folder of experiments/,
 `thesis`: all figures and tables, or `beyond`: the studies beyond it. Without a
 STUDY, the studies are listed. Finished runs are kept, and not repeated.").
-opt_help(runs,    "Runs of each case, with consecutive seeds [3]").
-opt_help(seed,    "The first seed [1]").
-opt_help(jobs,    "Runs at the same time [2]").
-opt_help(set,     "NAME=VALUE: a parameter of the study; a list, [1,2], is \c
-varied. May be repeated; `STUDY --help` lists parameters").
+opt_help(Name,    Help) :-
+    run_option(Name, _, _, Help).
 opt_help(case,    "Make one run, of this case with the first seed, in this \c
 process: its number or name, such as delta=0.5,topology=ring").
 opt_help(logs,    "Keep the log of each run, events.pl [false]").
 opt_help(replays, "Repeat a run of the first study of each folder, for a \c
 replay in a browser [false]").
-opt_help(list,    "Print a command for each run, and make none [false]").
-opt_help(collect, "Make no runs; show the existing ones [false]").
 opt_help(real,    "Make one case on real sockets, too, and report whether \c
 its measures are within those of virtual time [false]").
 opt_help(page,    "Show one run of the first study on a page, with sliders \c
@@ -93,7 +83,6 @@ opt_help(machines, "Make that case on machines, too: targets of ssh, with \c
 commas, or a number, of machines that are made on this one").
 opt_help(bind,    "With --machines: the address of this one for them").
 opt_help(means,   "Print means and their confidence intervals, too [false]").
-opt_help(out,     "Directory for runs, tables and pictures [out/studies]").
 opt_help(fleet,   "Share the runs with all processes in which the same \c
 command runs, on any machine, as members of this fleet").
 opt_help(redis,   "With --fleet: its engine, a server of Redis or Valkey").
@@ -102,9 +91,9 @@ opt_help(password_file, "With --fleet: password of the engine").
 opt_help(cacert,  "With --fleet: use TLS; certificate of the authority of \c
 the engine").
 
-opt_meta(set,  'NAME=VALUE').
+opt_meta(Name, Meta) :-
+    run_option(Name, _, Meta, _).
 opt_meta(case, 'CASE').
-opt_meta(out,  'DIRECTORY').
 opt_meta(machines, 'MACHINES').
 opt_meta(bind, 'ADDRESS').
 opt_meta(fleet, 'FLEET').
@@ -114,13 +103,8 @@ opt_meta(password_file, 'FILE').
 opt_meta(cacert, 'FILE').
 
 main(Argv) :-
-    set_stream(user_output, encoding(utf8)),
-    set_stream(user_error, encoding(utf8)),
-    parsed(Argv, Names, Options),
-    catch(( stopping_on_signals(command(Names, Options)) ),
-          error(Formal, Context),
-          ( print_message(error, error(Formal, Context)),
-            halt(1) )).
+    run_program(( parsed(Argv, Names, Options),
+                  command(Names, Options) )).
 
 parsed(Argv0, Names, [help(true)|Options]) :-
     member(Help, ['--help', '-h']),

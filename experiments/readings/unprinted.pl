@@ -1,6 +1,6 @@
 :- module(readings_unprinted,
           [ unprinted/4,                % ?Chapter, ?Parameter, -Values, -Why
-            evidence/2                  % ?Chapter, -Studies
+            evidence/3                  % ?Chapter, -Study, -Sets
           ]).
 
 /** <module> What the thesis does not print, and what it may have been
@@ -15,6 +15,30 @@ is not repeated here.
 %!  unprinted(?Chapter, ?Parameter, -Values:list, -Why) is nondet.
 %
 %   Each of Values is possible for Parameter, by what the thesis prints.
+
+unprinted(sieve, reading, [current, common, total],
+          "which agents are related, and which is the better one (section \c
+3.4.2)").
+unprinted(sieve, attacked, [4, 20],
+          "several nodes (section 3.5.2)").
+unprinted(sieve, patience, [0.8, 1.6],
+          "until danger signals have died down (section 3.5.2)").
+unprinted(sieve, topology, [random(100, 0.04), random(100, 0.1)],
+          "100 nodes (section 3.6)").
+unprinted(sieve, dynamic, [none, links(uniform(2, 4), 0.5, 0.5)],
+          "links alter with a given probability (section 3.5.2)").
+
+unprinted(learning, light, [10, 1000],
+          "intensity at the goal (section 4.3.3)").
+unprinted(learning, queue, [2, 10],
+          "less than the number of agents (section 4.2.1)").
+unprinted(learning, hop_time, [0.05-0.15],
+          "as in chapter 7, or another").
+unprinted(learning, settings,
+          [ [stay-0.3], [rho_min-2], [rho_min-0.5], [c-0.25],
+            [k_r-1, search-2], [k_r-0, search-3] ],
+          "constants of equations 4.2 to 4.6; an agent alone takes 195 \c
+executions").
 
 unprinted(sync, task_time, [1, 2, 4, 5],
           "C: one for all tasks (section 5.5); T1 is executed for 9 s on 60 \c
@@ -43,10 +67,34 @@ unprinted(population, task_time, [3, 5],
 unprinted(population, crash_share, [0.05, 0.5, 0.8],
           "while T4 is in progress").
 
-%!  evidence(?Chapter, -Studies) is nondet.
-%
-%   The claims of Studies decide between the readings: those figures that vary
-%   nothing else, so that a reading takes few runs.
+unprinted(allocation, beta, [0],
+          "back-offs that an allocator has experienced (equation 7.5)").
+unprinted(allocation, hop_time, [0.02-0.06, 0.04-0.10, 0.27-0.53],
+          "an allocator alone backs off for 5.16 s; or as in chapter 5").
+unprinted(allocation, change, [1-2, 5-10, 10-20],
+          "robots alter links by a variant of G(n, p) (section 7.5)").
+unprinted(allocation, probability, [0.03, 0.04, 0.1],
+          "p of G(n, p) (section 7.5)").
+unprinted(allocation, duration, [1, 10],
+          "execution time of a task (section 7.4.1)").
 
-evidence(sync, ['5.5']).
-evidence(population, ['6.3', '6.4']).
+%!  evidence(?Chapter, -Study, -Sets) is nondet.
+%
+%   The claims of Study decide between the readings of Chapter, in the cases that
+%   Sets select, values of --set.  Figures that vary nothing else, or a part of
+%   them, so that a reading takes few runs; auctions take most of those of
+%   chapter 7, and have a study of their own, `contention`.
+
+evidence(sieve, '3.3', []).
+evidence(sieve, '3.4', []).
+evidence(sieve, '3.5', []).
+evidence(learning, '4.7', []).
+evidence(learning, '4.9', ['network=[10,50]']).
+evidence(learning, '4.13', []).
+evidence(sync, '5.5', []).
+evidence(population, '6.3', []).
+evidence(population, '6.4', []).
+evidence(allocation, '7.1', [ 'links=[dynamic]',
+                              'mechanism=[proposed,constant]' ]).
+evidence(allocation, '7.4', ['mechanism=[proposed]']).
+evidence(allocation, '7.5', ['mechanism=[proposed]']).

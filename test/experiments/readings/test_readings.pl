@@ -7,6 +7,7 @@
 :- use_module('../../lib/study_files', [with_study_file/4]).
 :- use_module('../../../experiments/engine/cases', [study_parameter/2]).
 :- use_module('../../../experiments/engine/catalogue', [studies_named/2]).
+:- use_module('../../../experiments/engine/plan', [plans/3]).
 :- use_module('../../../experiments/engine/studies', [study_call/2, study_load/2]).
 :- use_module('../../../experiments/readings/designs').
 :- use_module('../../../experiments/readings/unprinted').
@@ -97,10 +98,12 @@ test(claims_of_the_project_do_not_count, Verdicts == [verdict(s-"b", 1, 2)]) :-
                            claim("d", [], 2, 2, true, '') ] },
     verdicts(s, Outcome, [], Verdicts).
 test(unprinted_values_are_parameters_of_the_studies_that_decide) :-
-    forall(( evidence(Chapter, Names),
-             studies_named(Names, Files),
-             member(File, Files) ),
-           ( study_load(File, Study),
+    forall(evidence(Chapter, Named, Sets),
+           ( studies_named([Named], [File]),
+             study_load(File, Study),
+             findall(set(Set), member(Set, Sets), Options),
+             plans([Study], Options, [plan(_, _, Cases)]),
+             assertion(Cases = [_|_]),
              forall(unprinted(Chapter, Name, Values, _),
                     ( assertion(study_parameter(Study, Name)),
                       forall(study_call(Study, fixed(Name, Value, Why)),
@@ -109,10 +112,11 @@ test(unprinted_values_are_parameters_of_the_studies_that_decide) :-
 test(program_tries_readings_and_records_them) :-
     lines(Lines),
     with_study_file(Lines, Dir, File,
-        ( program(Dir, File, ['--reading', 'depth=3', '--reading', 'depth=2'],
+        ( program(Dir, File, ['--reading', 'depth=3', '--reading', 'depth=2',
+                         '--runs', 2],
                   Text),
           has(Text, ["Of 2 claims", "pool large\n      depth=3\n"]),
-          directory_file_path(Dir, 'out/sync.tsv', Table),
+          directory_file_path(Dir, 'out/readings-sync.tsv', Table),
           read_file_to_string(Table, Rows, []),
           has(Rows, ["seeds 1 to 2\n", "# pool: sources ",
                      "as it is\tpool\tlarge\t0\t2\n",
