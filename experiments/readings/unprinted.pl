@@ -82,17 +82,17 @@ unprinted(allocation, duration, [1, 10],
 %
 %   The claims of Study decide between the readings of Chapter, in the cases that
 %   Sets select, values of --set.  Figures that vary nothing else, or a part of
-%   them, so that a reading takes few runs; auctions take most of those of
-%   chapter 7, and have a study of their own, `contention`.
+%   them, so that a reading takes few runs.  Figure 6.4 has the claims of 6.3, too;
+%   auctions take most runs of chapter 7, and have a study of their own,
+%   `contention`.
 
 evidence(sieve, '3.3', []).
 evidence(sieve, '3.4', []).
 evidence(sieve, '3.5', []).
 evidence(learning, '4.7', []).
-evidence(learning, '4.9', ['network=[10,50]']).
+evidence(learning, '4.9', ['network=[50]']).
 evidence(learning, '4.13', []).
 evidence(sync, '5.5', []).
-evidence(population, '6.3', []).
 evidence(population, '6.4', []).
 evidence(allocation, '7.1', [ 'links=[dynamic]',
                               'mechanism=[proposed,constant]' ]).
