@@ -31,6 +31,7 @@
 :- use_module(library(lists), [append/2, last/2, list_to_set/2, member/2]).
 :- use_module(library(main), [main/0]).
 :- use_module(library(option), [option/2, option/3]).
+:- use_module(library(pairs), [pairs_values/2]).
 
 :- initialization(main, main).
 
@@ -146,8 +147,9 @@ make(_, Options, 0) :-
     option(collect(true), Options),
     !.
 make(Tries, Options, Failed) :-
-    findall(Run, ( member(_-Plans, Tries), planned(Plans, Options, _, Run) ),
-            Runs0),
+    pairs_values(Tries, Lists),
+    append(Lists, Plans),
+    findall(Run, planned(Plans, Options, _, Run), Runs0),
     list_to_set(Runs0, Runs1),
     longest_first(Runs1, Runs),
     runs_directory(Options, Root),
