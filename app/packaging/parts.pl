@@ -119,6 +119,7 @@ part(studies,                           % mechanisms, experiments, applications
        'test/prolog/network/test_saving.pl',
        'test/prolog/tools/test_mistyped.pl', 'test/lib/algorithms_bench.pl',
        'test/lib/event_log.pl', 'test/lib/playground_scenes.pl',
+       'test/lib/quick_study.pl',
        'test/lib/wasm/sessions.js', 'test/lib/fake_node.pl', 'test/lib/project_studies.pl',
        'test/lib/robot_logs.pl', 'test/lib/study_files.pl',
        'test/lib/toy_study.pl' ]).
