@@ -216,7 +216,7 @@ test(refused_program_is_a_mistake_of_it, true(string(Found))) :-
                                                    verdict(_, Found))), _)) )).
 test(endless_program_is_stopped) :-
     handed_in(Anna,
-        ( check([Anna, '--only=richest', '--seconds=2'], Status, Out, _),
+        ( check([Anna, '--only=richest', '--seconds=1'], Status, Out, _),
           assertion(Status == exit(1)),
           assertion(sub_string(Out, _, _, _, "FAIL  ends in time")) )).
 test(a_program_that_fails_is_reported) :-
