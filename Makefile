@@ -25,9 +25,10 @@ ENTRY_POINTS = $(wildcard prolog/typhon.pl app/typhon.pl test/run.pl \
 NEEDS = @[ -e $(1) ] || { echo "make $@: $(1) is not part of this" \
     "installation: install the full archive" >&2; exit 2; }
 # check/0 without the options of predicates: for read_term/3, 9.2.9 has
-# the types wrong.
-CHECKS = list_undefined, list_trivial_fails, list_format_errors, \
-    list_redefined, list_void_declarations
+# the types wrong. Only the check of layers infers meta predicates.
+CHECKS = list_undefined([infer_meta_predicates(false)]), \
+    list_trivial_fails, list_format_errors, list_redefined, \
+    list_void_declarations
 
 .PHONY: help tools tools-peers tools-all tools-ros demo demo-robots demo-ros \
     demo-page page-tools playground thesis beyond thesis-real test test-quick stability \
