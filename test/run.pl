@@ -301,8 +301,9 @@ start_suite(File, by(quick(Quick, Study), Dir), Place,
                       [ '--on-error=print', '--on-warning=print',
                         Runner, '--', File, Results
                       ], Out,
-                      [ 'TYPHON_SUITE'=Mark, 'TYPHON_QUICK'=Quick, 'TYPHON_RUN'=Dir,
-                        'TYPHON_COOKIE_FILE'=Cookie, 'TYPHON_PORTS'=Ports ],
+                      [ 'TYPHON_SUITE'=Mark, 'TYPHON_QUICK'=Quick,
+                        'TYPHON_RUN'=Dir, 'TYPHON_COOKIE_FILE'=Cookie,
+                        'TYPHON_PORTS'=Ports ],
                       Pid),
         close(Out)).
 
