@@ -8,7 +8,7 @@
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists),
-              [intersection/3, last/2, member/2, nth1/3]).
+              [intersection/3, member/2, nth1/3]).
 :- use_module(library(pairs), [group_pairs_by_key/2, pairs_keys_values/3]).
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(readutil),
@@ -28,14 +28,7 @@ printed(Message) :-
     was_printed(_, typhon(Message)).
 
 alive(Pid) :-
-    atom_concat('/proc/', Pid, Dir),
-    exists_directory(Dir),
-    atom_concat(Dir, '/stat', Stat),
-    catch(read_file_to_string(Stat, Text, []), error(_, _), fail),
-    split_string(Text, ")", "", Parts),
-    last(Parts, Rest),
-    split_string(Rest, " ", " ", [State|_]),
-    State \== "Z".
+    \+ is_dead(Pid).
 
 ended(Pids) :-
     \+ ( member(Pid, Pids), alive(Pid) ).
@@ -185,20 +178,6 @@ test(two_networks_at_once, Both == []) :-
     with_network(ring(3), [processes(2)], _, HostsA,
         with_network(ring(3), [processes(2)], _, HostsB,
                      intersection(HostsA, HostsB, Both))).
-test(machines_are_reached_by_a_program_like_ssh) :-
-    with_tmp_dir(Dir,
-        ( directory_file_path(Dir, 'rsh', Program),
-          shell_script(Program, "echo noise; shift; exec sh -c \"$*\""),
-          with_settings([typhon_children:ssh=Program],
-              with_network(ring(5),
-                           [ machines(['user@127.0.0.1',
-                                       machine(other, [bind('127.0.0.1')])]) ],
-                           Network,
-                           ( pids(Network, Pids),
-                             length(Pids, 2),
-                             edges_are([1-2, 1-5, 2-3, 3-4, 4-5],
-                                       Network) ))) )).
-
 %   A setup leaves signals pending.
 
 test(network_with_restart_starts_in_a_setup) :-
