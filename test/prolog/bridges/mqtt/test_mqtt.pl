@@ -261,13 +261,8 @@ test(thousand_messages_in_order, Ps == Expected) :-
     numlist(1, 1000, Ns),
     findall(S, ( member(N, Ns), number_string(N, S) ), Expected).
 
-%   TYPHON_MESSAGES in the environment sets a larger number.
-
 test(both_directions_at_once, Results == [done,exit(0),N-true,N-true]) :-
-    (   getenv('TYPHON_MESSAGES', Atom)
-    ->  atom_number(Atom, N)
-    ;   N = 1500
-    ),
+    N = 1500,
     at_broker([pending(100000)], both_directions(N, Results)).
 
 %   both_directions(+N, -Results): an agent publishes N messages while N others

@@ -8,9 +8,7 @@
 
 /** <module> Faults of earlier platforms do not occur
 
-Peers that are silent, killed or restarted; agents that hop without pause,
-2,000 times. TYPHON_HOPS=100000 in the environment
-sets that number.
+Peers that are silent, killed or restarted; agents that hop without pause.
 */
 
 :- begin_tests(silent_peer).
@@ -233,22 +231,14 @@ disposed_while_leaving(Count) :-
                       peer_do(Peer, \+ agent_here(_))), 10),
     peer_do(a, \+ status_here(_)).
 
-hops(Hops) :-
-    (   getenv('TYPHON_HOPS', Atom)
-    ->  atom_number(Atom, Hops)
-    ;   Hops = 2000
-    ).
-
-%   Twenty agents share the hops.
+%   Twenty agents make a hundred hops each.
 
 bounce :-
-    hops(Hops),
-    Each is Hops//20,
     peer_host(a, A),
     peer_host(b, B),
     travel(a, [B, A], 2),
-    findall(Id, ( between(1, 20, _), set_out(a, [B, A], Each, Id) ), Ids),
-    forall(member(Id, Ids), ended_done(a, Id, Each)),
+    findall(Id, ( between(1, 20, _), set_out(a, [B, A], 100, Id) ), Ids),
+    forall(member(Id, Ids), ended_done(a, Id, 100)),
     wait_until(forall(member(Peer, [a, b]),
                       peer_do(Peer, \+ agent_here(_))), 10).
 
