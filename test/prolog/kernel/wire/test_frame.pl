@@ -197,8 +197,6 @@ test(frame_after_damage, Next == "def") :-
     framed(["abc", "def"], Bytes),
     flipped(16, Bytes, Damaged),
     with_bytes(Damaged, second_frame(Next)).
-test(truncated_in_the_length, error(syntax_error(truncated_frame))) :-
-    read_frames("\x0\\x0\", 10000, 1, _).
 test(too_long, error(resource_error(frame_bytes))) :-
     framed(["abcd"], Bytes),
     read_frames(Bytes, 3, 1, _).
