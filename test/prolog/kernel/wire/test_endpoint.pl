@@ -198,13 +198,6 @@ test(request_that_cannot_be_served,
      [ forall(member(Kind, [wrong, unheard_of])),
        error(connection_lost(_)) ]) :-
     fresh(with_peer(A, ask(A, Kind, x, _))).
-test(large_terms_both_ways) :-
-    length(Long, 100000),
-    maplist(=(x), Long),
-    fresh(with_peer(A,
-        concurrent_forall(between(1, 4, _),
-                          ( ask(A, echo, Long, Back), Back == Long ),
-                          [threads(4)]))).
 test(request_to_itself, Answer-Codec == x-fast) :-
     fresh(( endpoint_address(Me),
                     ask(Me, echo, x, Answer),
