@@ -194,8 +194,9 @@ range_dict(_, Dict) =>
 
 is_range(range(_, _, _)).
 
-range_added(Range, Dict0, Dict0.put(Dict)) :-
-    range_dict(Range, Dict).
+range_added(Range, Dict0, Dict) :-
+    range_dict(Range, Dict1),
+    Dict = Dict0.put(Dict1).
 
 run_seen(Goal, Message, Dict) :-
     run_of(Number, _, Start),

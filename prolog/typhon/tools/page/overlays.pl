@@ -11,12 +11,10 @@
             mechanism_parameters/3,     % +Name, +Predicate, -Dicts
             program_names/1             % -Names
           ]).
-:- use_module(library(apply), [foldl/4, maplist/2, maplist/3]).
+:- use_module(library(apply), [foldl/4, maplist/2, maplist/3, partition/4]).
 :- use_module(library(error), [existence_error/2]).
 :- use_module(library(filesex), [directory_file_path/3, directory_member/3]).
 :- use_module(library(lists), [append/2, append/3, member/2]).
-:- autoload(library(pldoc/doc_modes), [process_modes/6]).
-:- autoload(library(pldoc/doc_wiki), [indented_lines/3]).
 :- use_module(library(prolog_source),
               [ prolog_close_source/1, prolog_open_source/2,
                 prolog_read_source_term/4 ]).
@@ -327,37 +325,51 @@ read_comments(In, Comments) :-
     ).
 
 %   Comment begins with heads like `%!  name(+A, -B) is det.`; several heads may
-%   share the text below them.  Variables are bound to their names, as the page
-%   shows these.
+%   share the text below them, which is indented by four columns, those of `%   `.
+%   Variables are bound to their names, as the page shows these.
 
 predicate_dict(Comment, _{name:Name, arguments:Arguments, about:About}) :-
     string_concat("%!", _, Comment),
-    string_codes(Comment, Codes),
-    indented_lines(Codes, ["%!", "%"], Lines),
-    process_modes(Lines, user, comment:0, Modes, _, Rest),
-    comment_text(Rest, About),
-    member(mode(Mode, Bindings), Modes),
-    maplist(call, Bindings),
+    split_string(Comment, "\n", "", Lines),
+    partition(is_head, Lines, Heads0, Texts0),
+    maplist(without_margin, Heads0, Heads),
+    maplist(without_margin, Texts0, Texts),
+    atomic_list_concat(Texts, '\n', Text),
+    split_string(Text, "", " \n", [About]),
+    atomic_list_concat(Heads, '\n', Modes),
+    setup_call_cleanup(open_string(Modes, In), modes(In, All), close(In)),
+    member(Mode, All),
     ( Mode = (Head is _) -> true ; Head = Mode ),
     compound(Head),
     compound_name_arguments(Head, Name0, Parameters),
     atom_string(Name0, Name),
     maplist(argument, Parameters, Arguments).
 
-%   The text of a comment is indented by four columns, those of `%   `.
+is_head(Line) :-
+    string_concat("%!", _, Line).
 
-comment_text(Lines, Text) :-
-    with_output_to(string(Text0),
-                   forall(member(Indent-Codes, Lines),
-                          ( Margin is max(0, Indent-4),
-                            format('~*c~s~n', [Margin, 0'\s, Codes]) ))),
-    split_string(Text0, "", " \n", [Text]).
+without_margin(Line, Text) :-
+    string_length(Line, Length),
+    Margin is min(4, Length),
+    sub_string(Line, Margin, _, 0, Text).
+
+%   A comment of another form has no heads.
+
+modes(In, Modes) :-
+    catch(read_term(In, Mode, [variable_names(Names)]), error(_, _),
+          Mode = end_of_file),
+    (   Mode == end_of_file
+    ->  Modes = []
+    ;   maplist(call, Names),
+        Modes = [Mode|Rest],
+        modes(In, Rest)
+    ).
 
 argument(Parameter, [Sign, Name]) :-
-    (   Parameter =.. [Sign0, Typed]
+    ( Parameter = Typed:_ -> true ; Typed = Parameter ),
+    (   Typed =.. [Sign0, Name0]
     ->  true
     ;   Sign0 = (+),
-        Typed = Parameter
+        Name0 = Typed
     ),
-    ( Typed = Name0:_Type -> true ; Name0 = Typed ),
     maplist(atom_string, [Sign0, Name0], [Sign, Name]).

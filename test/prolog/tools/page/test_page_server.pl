@@ -453,6 +453,8 @@ test(mechanisms, condition(installed(studies))) :-
 test(parameters, condition(installed(studies))) :-
     page(Base, ( answer(Base, _{ask:"parameters", mechanism:"sync",
                                 predicate:"sequence_start"}, All),
+                 answer(Base, _{ask:"parameters", mechanism:"allocation",
+                                predicate:"robot_start"}, [Watch|_]),
                  answer(Base, _{ask:"parameters", mechanism:"sync",
                                 predicate:"task_fail"}, []),
                  fails(Base, _{ask:"parameters", mechanism:"../sync",
@@ -460,6 +462,7 @@ test(parameters, condition(installed(studies))) :-
     member(Delta, All),
     Delta.name == "delta",
     !,
+    assertion(_{ name:"watch", value:"60", values:["inf"], from:1 } :< Watch),
     assertion(_{ value:"0.5", from:0.01, to:100, step:0.01,
                  about:"penalty bias" } :< Delta).
 
