@@ -48,12 +48,11 @@ argument(Name, Arity, Arg) :-
     ).
 
 calls_arguments(Head) :-
-    typhon_bodies:control(Head).
-calls_arguments(Head) :-
-    typhon_allowed:allowed(guarded, Head, runs(_)).
-calls_arguments(Head) :-
-    predicate_property(typhon_vocabulary:Head, defined),
-    predicate_property(typhon_vocabulary:Head, meta_predicate(_)).
+    (   typhon_bodies:control(Head)
+    ;   typhon_allowed:allowed(guarded, Head, runs(_))
+    ;   predicate_property(typhon_vocabulary:Head, defined),
+        predicate_property(typhon_vocabulary:Head, meta_predicate(_))
+    ).
 
 %   filled(+Name, +Arity, +Arg, -Term): each argument of Term is Arg.
 
