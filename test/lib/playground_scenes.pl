@@ -143,6 +143,16 @@ scene(study_has_sliders, Browser) :-
     go(Browser),
     browser_wait(Browser, "return typhon.app.views.get('model').samples.length > 0 \c
         && typhon.app.views.get('model').seen.state === 'finished'", 60).
+scene(mechanism_has_sliders, Browser) :-
+    set_up(Browser),
+    browser_click(Browser, "#actions button"),
+    browser_click(Browser, "[role=menuitem]"-"Start a mechanism …"),
+    browser_wait(Browser, "return document.querySelector('dialog select')", 20),
+    browser_run(Browser, "const s = document.querySelector('dialog select'); s.value = \c
+        [...s.options].find(o => o.text === 'sync: sequence start').value; \c
+        s.dispatchEvent(new Event('change'))", _),
+    browser_wait(Browser, "return document.querySelector('[aria-label=\"delta, slider\"]')\c
+        ?.nextElementSibling.value === '0.5'", 20).
 scene(editor_marks_mistakes, Browser) :-
     set_up(Browser),
     browser_run(Browser, "playground.page.editor.value = \c
