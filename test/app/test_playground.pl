@@ -1,15 +1,12 @@
 :- module(test_playground, []).
 :- use_module('../../app/packaging/parts', [installed/1]).
 :- use_module('../lib/common').
-:- use_module('../lib/documents',
-              [block_write/2, blocks/2, document/1]).
-:- use_module('../lib/texts', [write_file/3]).
-:- use_module('../lib/transcript', [session_steps/2]).
+:- use_module('../lib/virtual_documents').
 :- use_module(library(apply), [include/3, maplist/2, maplist/3]).
 :- use_module(library(filesex),
               [ copy_file/2, delete_directory_and_contents/1,
                 directory_file_path/3, make_directory_path/1 ]).
-:- use_module(library(lists), [append/3, member/2, memberchk/2, subtract/3]).
+:- use_module(library(lists), [append/3, member/2, subtract/3]).
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
@@ -41,16 +38,6 @@ test(all_studies_of_the_site, [condition(installed(studies)),
     studies_in('app/playground/build.js', Offered).
 
 :- end_tests(playground).
-
-%   Some block of the document is about virtual time.
-
-virtual_document(Path, Blocks) :-
-    document(Path),
-    blocks(Path, Blocks),
-    once(( member(block(_, _, Lines), Blocks),
-           member(Line, Lines),
-           sub_string(Line, _, _, _, "clock(virtual)") )),
-    memberchk(block("prolog-session", _, _), Blocks).
 
 %   Both play in folders of the same names, as logs hold names of files.
 
@@ -97,21 +84,7 @@ prepare(session(File), Dir) :-
     copy_file(File, Session).
 prepare(document(Blocks), Dir) :-
     make_directory_path(Dir),
-    maplist(block_write(Dir), Blocks),
-    findall(Goal,
-            ( member(block("prolog-session", _, Lines), Blocks),
-              session_steps(Lines, Steps),
-              member(step(Goal, _), Steps) ),
-            Goals),
-    directory_file_path(Dir, 'session.pl', Session),
-    write_file(Session, '~@',
-               [forall(member(Goal, Goals), format('?- ~w~n', [Goal]))]).
-
-prepare_session(Path, Dir) :-
-    make_directory_path(Dir),
-    project_file(Path, File),
-    directory_file_path(Dir, 'session.pl', Session),
-    copy_file(File, Session).
+    session_write(Blocks, Dir).
 
 play_here(Dir) :-
     project_file('test/lib/wasm/play.pl', Play),
@@ -144,32 +117,9 @@ run(Program, Args) :-
 different(File, Different) :-
     folder(Dir),
     file_base_name(File, Base),
-    atomic_list_concat([Dir, native, Base], /, Native),
-    atomic_list_concat([Dir, wasm, Base], /, Wasm),
-    directory_files(Native, Names1),
-    directory_files(Wasm, Names2),
-    append(Names1, Names2, All),
-    sort(All, Names),
-    include(differs(Native, Wasm), Names, Different).
-
-differs(Dir1, Dir2, Name) :-
-    \+ ( content(Dir1, Name, Content),
-         content(Dir2, Name, Content) ).
-
-%   Saved agents and networks have the version of Prolog, and names of variables.
-
-content(Dir, Name, Content) :-
-    directory_file_path(Dir, Name, File),
-    (   exists_file(File)
-    ->  read_file_to_string(File, Text, [encoding(utf8)]),
-        (   saved(Begin),
-            sub_string(Text, 0, _, _, Begin)
-        ->  Content = saved
-        ;   Content = Text
-        )
-    ;   exists_directory(File),
-        Content = directory
-    ).
-
-saved("typhon_saved(").
-saved("restore_point(").
+    findall(Contents,
+            ( member(Player, [native, wasm]),
+              atomic_list_concat([Dir, Player, Base], /, Folder),
+              folder_contents(Folder, Contents) ),
+            Folders),
+    contents_differ(Folders, Different).
