@@ -17,6 +17,7 @@
 */
 
 :- use_module(common, [with_tmp_dir/1]).
+:- use_module(made_once, [made_once/3]).
 :- use_module(peers, [peer_do/2]).
 :- use_module(library(filesex),
               [delete_directory_and_contents/1, directory_file_path/3]).
@@ -53,21 +54,19 @@ authority(Hosts, Authors, Goal, Tmp) :-
     copied(Hosts, Authors, Dir),
     call(Goal, Dir).
 
-%   Keys take a third of a second each: all suites that run with the same
-%   test/run.pl get copies of the authorities beside their cookies.
+%   Keys take a third of a second each: suites share authorities, and copy them.
 
 copied(Hosts0, Authors0, Dir) :-
     larger(Hosts0, Authors0, Hosts, Authors),
-    getenv('TYPHON_COOKIE_FILE', Cookie),
-    file_directory_name(Cookie, Shared),
     append(Hosts, [authors|Authors], Names),
     atomic_list_concat(Names, '_', Name),
-    directory_file_path(Shared, Name, Made),
-    (   exists_directory(Made)
-    ->  true
-    ;   made(Hosts, Authors, Made)
-    ),
+    made_once(Name, keys_made(Hosts, Authors), Made),
     process_create(path(cp), ['-Rp', Made, Dir], []).
+
+keys_made(Hosts, Authors, Dir) :-
+    keys_init(Dir),
+    forall(member(Host, Hosts), keys_issue(host, Host, 30, Dir)),
+    forall(member(Author, Authors), keys_issue(author, Author, 30, Dir)).
 
 %   larger(+Hosts0, +Authors0, -Hosts, -Authors): most goals need some of these.
 
@@ -78,16 +77,6 @@ larger(Hosts0, Authors0, Hosts, Authors) :-
     subset(Authors0, Authors),
     !.
 larger(Hosts, Authors, Hosts, Authors).
-
-%   Another process may make it at the same time.
-
-made(Hosts, Authors, Made) :-
-    tmp_file(keys, New),
-    keys_init(New),
-    forall(member(Host, Hosts), keys_issue(host, Host, 30, New)),
-    forall(member(Author, Authors), keys_issue(author, Author, 30, New)),
-    catch(rename_file(New, Made), error(_, _),
-          delete_directory_and_contents(New)).
 
 %!  authority_begin(+Hosts, +Authors) is det.
 %!  authority_end is det.
