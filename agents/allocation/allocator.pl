@@ -48,25 +48,25 @@
     The other facts are described in the files that own them.
 */
 
-default(cd, 5, range(0, 1000, 0.1), "of equation 7.3").
-default(alpha_k, 0.01, range(0, 100, 0.001),
+default(cd, 5, range(0, 50, 0.1), "of equation 7.3").
+default(alpha_k, 0.01, range(0, 1, 0.001),
         "at or below it the resource is exhausted").
-default(chi, 10, range(0, 1000, 0.01), "mobility resource of a new allocator").
-default(bi_min, 10, range(0, 10000, 0.1), "seconds, of constant back-off").
-default(bi_max, 500, range(0, 100000, 0.1), "seconds, of equation 7.5").
-default(beta, 1, range(0, 10, 1),
+default(chi, 10, range(0, 100, 0.1), "mobility resource of a new allocator").
+default(bi_min, 10, range(0, 100, 0.5), "seconds, of constant back-off").
+default(bi_max, 500, range(0, 2000, 1.0), "seconds, of equation 7.5").
+default(beta, 1, range(0, 5, 0.5),
         "exponent of equation 7.5 at the first back-off").
 default(backoff, adaptive, [adaptive, constant],
         "constant: equation 7.7 for 7.6").
 default(strategy, conscientious, ground, "of migration, see next_host/2").
 default(sharing, none, [none, own, shared], "of places of robots, see news.pl").
-default(children, 1, range(1, 1000, 1),
+default(children, 1, range(1, 10, 1),
         "child agents that share the de-allocation").
-default(child_life, 300, range(0, 100000, 0.5), "seconds").
-default(patience, 20, range(0.1, 10000, 0.1),
+default(child_life, 300, range(0, 3000, 1.0), "seconds").
+default(patience, 20, range(1, 200, 0.5),
         "seconds before a robot counts as silent").
-default(monitor, 10, range(0.1, 10000, 0.1), "seconds between status requests").
-default(pause, 1, range(0.01, 1000, 0.01),
+default(monitor, 10, range(1, 100, 0.5), "seconds between status requests").
+default(pause, 1, range(0.1, 20, 0.1),
         "seconds, where no neighbour is reachable").
 default(start, now, [now, order], "order: waits for the message begin").
 default(seed, random, [random, range(0, 2147483647, 1)],

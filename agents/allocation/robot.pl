@@ -41,9 +41,9 @@
     so an agent that has died does not keep the robot.
 */
 
-default(watch, 60, [inf, range(1, 100000, 0.5)],
+default(watch, 60, [inf, range(1, 600, 0.5)],
         "seconds between two messages still(Ref)").
-default(patience, 20, range(0.1, 10000, 0.1), "seconds to wait for the answer").
+default(patience, 20, range(1, 200, 0.5), "seconds to wait for the answer").
 
 main :-
     next(Event),

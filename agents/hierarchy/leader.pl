@@ -35,7 +35,7 @@
     observer, which has the same payload and the reports of all leaders.
 */
 
-default(workers, 1, range(1, 1000, 1), "workers in each part").
+default(workers, 1, range(1, 20, 1), "workers in each part").
 
 main :-
     receive(Customer-serve(Round, Hosts)),

@@ -16,7 +16,10 @@ clause default(Name, Value, Range, About).  About is a text, which begins with
 the unit, if there is one; Range is
 
   - range(From, To, Step)
-    Numbers from From to To; integers if Step is one.  A slider moves by Step.
+    Numbers above 0, or from 0 on if From is 0; integers if Step is one.  A
+    slider goes from From to To by Step.
+  - within(From, To, Step)
+    The same, but only numbers from From to To.
   - a list
     Its members; one of them may be a range.
   - a type of must_be/2
@@ -88,19 +91,20 @@ setting_declared(Predicate, Declared) :-
 
 %   The page shows them.
 
-typhon_page_overlays:parameter(Predicate, parameter(Name, Value, Range), About) :-
+typhon_page_overlays:parameter(Predicate, parameter(Name, Value, Shown), About) :-
     setting_declared(Predicate, Declared),
-    member(default(Name, Value, Range, About), Declared).
+    member(default(Name, Value, Range, About), Declared),
+    ( Range = within(From, To, Step) -> Shown = range(From, To, Step) ; Shown = Range ).
 
                 /*******************************
                 *            RANGES            *
                 *******************************/
 
-in_range(range(From, To, Step), Value) =>
-    (   integer(Step)
-    ->  integer(Value)
-    ;   number(Value)
-    ),
+in_range(range(From, _, Step), Value) =>
+    of_kind(Step, Value),
+    ( From > 0 -> Value > 0 ; Value >= From ).
+in_range(within(From, To, Step), Value) =>
+    of_kind(Step, Value),
     Value >= From,
     Value =< To.
 in_range(Choices, Value), is_list(Choices) =>
@@ -110,19 +114,29 @@ in_range(Choices, Value), is_list(Choices) =>
 in_range(Type, Value) =>
     is_of_type(Type, Value).
 
+of_kind(Step, Value) :-
+    ( integer(Step) -> integer(Value) ; number(Value) ).
+
 in_choice(range(From, To, Step), Value) :-
     in_range(range(From, To, Step), Value).
 in_choice(Choice, Value) :-
     Choice == Value.
 
-range_text(range(From, To, Step), Text) =>
-    ( integer(Step) -> Kind = 'an integer' ; Kind = 'a number' ),
+range_text(range(From, _, Step), Text) =>
+    kind(Step, Kind),
+    ( From > 0 -> Bound = 'above 0' ; format(atom(Bound), 'from ~w on', [From]) ),
+    format(atom(Text), '~w ~w', [Kind, Bound]).
+range_text(within(From, To, Step), Text) =>
+    kind(Step, Kind),
     format(atom(Text), '~w from ~w to ~w', [Kind, From, To]).
 range_text(Choices, Text), is_list(Choices) =>
     maplist(choice_text, Choices, Texts),
     atomic_list_concat(Texts, ' or ', Text).
 range_text(Type, Text) =>
     format(atom(Text), 'of type ~w', [Type]).
+
+kind(Step, Kind) :-
+    ( integer(Step) -> Kind = 'an integer' ; Kind = 'a number' ).
 
 choice_text(range(From, To, Step), Text) =>
     range_text(range(From, To, Step), Text).

@@ -29,7 +29,7 @@
 :- use_module(library(lists)).
 :- dynamic arrival/1.
 
-default(tick, 1, range(0.01, 100, 0.01), "seconds: the step of time").
+default(tick, 1, range(0.1, 10, 0.1), "seconds: the step of time").
 default(strategy, conscientious, ground, "of migration, see next_host/2").
 
 live :-

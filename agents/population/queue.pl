@@ -20,7 +20,7 @@
     after a time-out the queue continues without it.
 */
 
-default(patience, 60, range(0.1, 10000, 0.1),
+default(patience, 60, range(1, 600, 1.0),
         "seconds in which the agent on its turn should act").
 
 main :-

@@ -19,15 +19,15 @@
 :- include(resource).
 :- dynamic setting/2, resource/1, lifetime/1.
 
-default(q_th, 4, range(1, 1000, 1), "slots of a queue").
-default(cr_min, 10, range(0, 1000, 0.1),
+default(q_th, 4, range(1, 20, 1), "slots of a queue").
+default(cr_min, 10, range(0, 100, 0.5),
         "cloning resource conferred on a clone").
-default(cr_max, 100, range(0, 10000, 0.1), "the maximum").
-default(cr_start, 10, range(0, 1000, 0.1), "of an agent that was created").
-default(alpha_c, 0.1, range(0, 100, 0.01), "inherent charging").
-default(alpha_r, 15, range(0, 1000, 0.1), "charging by a reward").
-default(c_l, 7, range(0, 1000, 0.1), "ticks of life added by a reward").
-default(lifetime, 10, range(1, 10000, 0.5), "ticks that a clone lives").
+default(cr_max, 100, range(0, 1000, 1.0), "the maximum").
+default(cr_start, 10, range(0, 100, 0.5), "of an agent that was created").
+default(alpha_c, 0.1, range(0, 2, 0.01), "inherent charging").
+default(alpha_r, 15, range(0, 100, 0.5), "charging by a reward").
+default(c_l, 7, range(0, 50, 0.5), "ticks of life added by a reward").
+default(lifetime, 10, range(1, 100, 0.5), "ticks that a clone lives").
 default(rounding, round, [round, floor], "of the number of clones").
 default(replication, rewarded, [rewarded, always],
         "always: also without a reward").

@@ -20,11 +20,11 @@
     left(Sequence).
 */
 
-default(psi, 100, range(1, 10000, 0.5),
+default(psi, 100, range(1, 1000, 0.5),
         "the action potential at the beginning").
-default(kappa, 1, range(0.01, 100, 0.01), "of equation 6.9").
-default(omega, 5, range(1, 1000, 1), "length of the history").
-default(threshold, 0.01, range(0, 100, 0.0001),
+default(kappa, 1, range(0.01, 10, 0.01), "of equation 6.9").
+default(omega, 5, range(1, 50, 1), "length of the history").
+default(threshold, 0.01, range(0, 1, 0.001),
         "below it an action potential counts as zero").
 default(start, now, [now, order], "order: waits for the message begin").
 

@@ -24,13 +24,13 @@
     agent moves on.
 */
 
-default(delta, 0.5, range(0.01, 100, 0.01), "penalty bias").
-default(theta, 15, range(0.1, 1000, 0.1), "initial value of a history").
-default(maximum, 100, range(1, 100000, 0.5),
+default(delta, 0.5, range(0.01, 2, 0.01), "penalty bias").
+default(theta, 15, range(1, 100, 0.5), "initial value of a history").
+default(maximum, 100, range(1, 1000, 0.5),
         "of a potential; its initial value, too").
-default(window, 15, range(1, 1000, 1), "length of the history").
+default(window, 15, range(1, 100, 1), "length of the history").
 default(strategy, conscientious, ground, "of migration, see next_host/2").
-default(patience, 1, range(0.01, 1000, 0.01),
+default(patience, 1, range(0.1, 20, 0.1),
         "seconds between attempts to leave a host").
 default(start, now, [now, order], "order: waits for the message begin").
 

@@ -196,18 +196,17 @@ test(settings_that_are_no_pairs, error(type_error(_, _))) :-
 test(defaults_are_in_their_ranges, Wrong == []) :-
     findall(Name-Value, ( declared(Predicate, Name, Value, _),
                           \+ accepted(Predicate, Name-Value) ), Wrong).
-test(ends_of_ranges_are_accepted, Refused == []) :-
-    findall(Name-End, ( declared(Predicate, Name, _, Range),
-                        end_of(Range, End, _),
-                        \+ accepted(Predicate, Name-End) ), Refused).
+test(values_in_ranges_are_accepted, Refused == []) :-
+    findall(Name-Value, ( declared(Predicate, Name, _, Range),
+                          inside(Range, Value),
+                          \+ accepted(Predicate, Name-Value) ), Refused).
 test(values_beyond_a_range_are_refused_by_name, Wrong == []) :-
     findall(Name-Beyond, ( declared(Predicate, Name, _, Range),
-                           end_of(Range, End, Beyond),
-                           \+ refused(Predicate, Name-Beyond, End) ), Wrong).
+                           beyond(Range, Beyond, Named),
+                           \+ refused(Predicate, Name-Beyond, Named) ), Wrong).
 test(integers_only,
      throws(error(domain_error(setting, window-1.5),
-                  context(_, 'window is an integer from 1 to 1000: length of \c
-                              the history')))) :-
+                  context(_, 'window is an integer above 0: length of the history')))) :-
     setting_facts(sequence_start, [settings([window-1.5])], _).
 
 %   Each mechanism checks before it does anything else.
@@ -223,27 +222,34 @@ declared(Predicate, Name, Value, Range) :-
     setting_declared(Predicate, Declared),
     member(default(Name, Value, Range, _), Declared).
 
-%   end_of(+Range, -End, -Beyond): Beyond is not in Range.
+%   inside(+Range, -Value), beyond(+Range, -Value, -Named): the error for Value
+%   names Named.
 
-end_of(range(From, To, Step), End, Beyond) :-
-    ( End = From, Beyond is From-Step ; End = To, Beyond is To+Step ).
-end_of([One|Others], End, Beyond) :-
+inside(range(From, To, _), Value) :-
+    ( Value = From ; Value = To ; Value is 10*To ).
+inside(within(From, To, _), Value) :-
+    ( Value = From ; Value = To ).
+inside([One|Others], Value) :-
     member(Choice, [One|Others]),
-    (   Choice = range(_, _, _)
-    ->  end_of(Choice, End, Beyond)
-    ;   End = Choice,
-        Beyond = no(Choice)
-    ).
+    ( compound(Choice) -> inside(Choice, Value) ; Value = Choice ).
+
+beyond(range(From, _, Step), Value, 0) :-
+    ( From > 0 -> Value = 0 ; Value is -Step ).
+beyond(within(From, To, Step), Value, Named) :-
+    ( Value is From-Step, Named = From ; Value is To+Step, Named = To ).
+beyond([One|Others], Value, Named) :-
+    member(Choice, [One|Others]),
+    ( compound(Choice) -> beyond(Choice, Value, Named) ; Value = no(Choice), Named = Choice ).
 
 accepted(Predicate, Pair) :-
     catch(setting_facts(Predicate, [settings([Pair])], _), error(_, _), fail).
 
-refused(Predicate, Pair, End) :-
+refused(Predicate, Pair, Named) :-
     catch(( setting_facts(Predicate, [settings([Pair])], _), fail ),
           error(domain_error(setting, Pair), context(_, Text)), true),
     nonvar(Text),
-    format(atom(Named), '~w', [End]),
-    sub_atom(Text, _, _, _, Named).
+    format(atom(Part), '~w', [Named]),
+    sub_atom(Text, _, _, _, Part).
 
 mechanism(sync_operator:sequence_start(s, [], [t-true], [settings([delta-0])], _),
           delta-0).

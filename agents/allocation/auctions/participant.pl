@@ -36,20 +36,20 @@
 :- include(awards).
 :- include(auctioneer).
 
-default(window, 10, range(0, 100000, 0.1), "seconds for bids").
-default(answer, 10, range(0, 100000, 0.1),
+default(window, 10, range(0, 100, 0.5), "seconds for bids").
+default(answer, 10, range(0, 100, 0.5),
         "seconds for the answers to an award").
-default(renew, 20, range(0.1, 100000, 0.1),
+default(renew, 20, range(1, 200, 0.5),
         "seconds from one renewal to the next").
-default(contract, 60, range(0.1, 100000, 0.1), "seconds until a contract ends").
-default(tries, 3, range(0, 100, 1), "rounds without a back-off between them").
+default(contract, 60, range(1, 600, 0.5), "seconds until a contract ends").
+default(tries, 3, range(0, 20, 1), "rounds without a back-off between them").
 default(sending, at_once, ground, "at_once, or one_by_one(Share)").
-default(beta, 1, range(0, 10, 1), "of the first back-off").
-default(bi_min, 10, range(0, 10000, 0.1), "seconds, of equation 7.7").
-default(bi_max, 500, range(0, 100000, 0.1), "seconds, of equation 7.5").
-default(level, 10, range(0, 1000, 1), "of a broadcast tree").
-default(memory, 1000, range(1, 1000000, 1), "floods that a node remembers").
-default(jobs, 100, range(1, 1000000, 1),
+default(beta, 1, range(0, 5, 0.5), "of the first back-off").
+default(bi_min, 10, range(0, 100, 0.5), "seconds, of equation 7.7").
+default(bi_max, 500, range(0, 2000, 1.0), "seconds, of equation 7.5").
+default(level, 10, range(0, 50, 1), "of a broadcast tree").
+default(memory, 1000, range(1, 10000, 1), "floods that a node remembers").
+default(jobs, 100, range(1, 1000, 1),
         "jobs of other nodes that it remembers").
 
 %   Messages of other nodes may arrive before the list of peers; they stay in

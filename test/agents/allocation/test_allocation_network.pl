@@ -151,7 +151,7 @@ test(urgent_task_is_served_first) :-
     allocation(ring(3), [hop_time(uniform(0.1, 0.2))], [], Hosts, File,
         ( Hosts = [First, _, Last],
           robot_fail(Last),
-          push(a, 3, [], First, [chi-1000], A),
+          push(a, 3, [], First, [chi-1.0e30], A),
           wait_until(( allocation_stage(A, _, Held), length(Held, 2) ), 40),
           push(b, 2, [priority(1)], First, [], B),
           ends(B),
@@ -169,7 +169,7 @@ test(robot_fails_while_reserved) :-
     allocation(ring(3), [], [], Hosts, File,
         ( Hosts = [First, Second, Third],
           robot_fail(Third),
-          push(t, 3, [], First, [chi-1000], Agent),
+          push(t, 3, [], First, [chi-1.0e30], Agent),
           wait_until(( allocation_stage(Agent, _, Held), length(Held, 2) ), 40),
           robot_fail(Second),
           happened(File, lost(Second, failed)),
@@ -218,7 +218,7 @@ test(failed_robots_are_asked_again_after_a_back_off) :-
 test(allocator_is_disposed_of) :-
     allocation(ring(3), [], [watch-5, patience-50], Hosts, _,
         ( Hosts = [First|_],
-          push(t, 4, [], First, [chi-1000], Agent),
+          push(t, 4, [], First, [chi-1.0e30], Agent),
           wait_until(( allocation_stage(Agent, _, Held), length(Held, 3) ), 40),
           agent_dispose(Agent),
           all_free(Hosts) )).
@@ -336,7 +336,7 @@ killed(Hosts, File) :-
 %   The allocator waits for a tenth robot.
 
 allocator_killed([Host|_], Blocks, Left) :-
-    push(t, 10, [], Host, [chi-1000], Agent),
+    push(t, 10, [], Host, [chi-1.0e30], Agent),
     wait_until(( allocation_stage(Agent, _, Held), length(Held, 9) ), 40),
     part(Agent, Blocks, Block, Left),
     kill(Block),

@@ -722,7 +722,7 @@ test(mechanism, [condition(installed(studies)), Done == ["[]"]]) :-
                                 arguments:["s", Hosts, "[a-true]",
                                            _{ options:"[agents(0)]",
                                               settings:_{delta:"0"} }, ""] },
-                       ["delta", "from 0.01 to 100"]),
+                       ["delta", "above 0"]),
                  fails(Base, _{ do:"mechanism", mechanism:"sync",
                                 predicate:"halt", arguments:[] }, ["halt/0"]),
                  fails(Base, _{ do:"mechanism", mechanism:"../sync",
