@@ -105,24 +105,25 @@ close_idle(Idle) :-
 disconnect(C) :-
     catch(redis_disconnect(C, [force(true)]), error(_, _), true).
 
-%   taken(+Fleet, -C, -Age): a connection, `old` if it was used before.  If none
-%   is idle a thread makes one, and is interrupted after a while: the system may
+%   taken(+Fleet, -Got, -Age): connection(C), `old` if it was used before, or
+%   failed(Why).  If none is idle a thread makes one, and is interrupted after a while: the system may
 %   take minutes to report that a machine is not there.  At most three do so at a
 %   time, since the search for a name is not interrupted.
 
-taken(Fleet, C, Age) :-
+taken(Fleet, Got, Age) :-
     (   server(Fleet, Idle, Options)
     ->  true
     ;   existence_error(fleet, Fleet)
     ),
     is_up(Fleet),
-    (   thread_get_message(Idle, connection(C), [timeout(0)])
+    (   Got = connection(_),
+        thread_get_message(Idle, Got, [timeout(0)])
     ->  Age = old
     ;   Age = new,
         connect_in_thread(Fleet, Idle, Options),
         setting(typhon_fleet:engine_seconds, Seconds),
         (   wait_within(Seconds, thread_get_message(Idle, Got))
-        ->  got(Got, Fleet, C)
+        ->  true
         ;   forall(connecting(Fleet, Alias), interrupt(Alias)),
             goes_down(Fleet, 'it does not answer')
         )
@@ -135,10 +136,6 @@ is_up(Fleet) :-
     ->  unreachable(Fleet, Why)
     ;   true
     ).
-
-got(connection(C), _, C).
-got(failed(Why), Fleet, _) :-
-    failed(Why, Fleet).
 
 failed(refused(Text), Fleet) :-
     throw(error(permission_error(authenticate, fleet, Fleet), context(_, Text))).
@@ -279,9 +276,16 @@ engine(Fleet, Command, _) :-
     functor(Command, Name, _),
     permission_error(model, engine_command, Name).
 engine(Fleet, Command, Reply) :-
-    taken(Fleet, C, Age),
-    call_cleanup(asked(C, Command, Answer), give_back(Answer, Fleet, C)),
-    answer(Answer, Age, Fleet, Command, Reply).
+    attempt(first, Fleet, Command, Reply).
+
+attempt(Attempt, Fleet, Command, Reply) :-
+    taken(Fleet, Got, Age),
+    tried(Got, Fleet, Command, Answer),
+    answer(Answer, Age-Attempt, Fleet, Command, Reply).
+
+tried(connection(C), Fleet, Command, Answer) :-
+    call_cleanup(asked(C, Command, Answer), give_back(Answer, Fleet, C)).
+tried(failed(Why), _, _, stale(Why)).
 
 asked(C, Command, Answer) :-
     catch(( redis(C, Command, Reply as string)
@@ -344,18 +348,22 @@ give_back(Answer, Fleet, C) :-
     ;   disconnect(C)
     ).
 
-%   A connection that breaks when it is used again is older than the engine.
+%   A connection that breaks when it is used again is older than the engine; a new
+%   one may have been cut by chance, but not the next one, too.
 
 answer(reply(Reply), _, _, _, Reply).
 answer(error(Formal), _, _, _, _) :-
     throw(error(Formal, _)).
 answer(full(Text), _, Fleet, _, _) :-
     throw(error(resource_error(fleet_space(Fleet)), context(_, Text))).
-answer(stale(_), old, Fleet, Command, Reply) :-
+answer(stale(_), old-Attempt, Fleet, Command, Reply) :-
     !,
     ignore(( server(Fleet, Idle, _), close_idle(Idle) )),
-    engine(Fleet, Command, Reply).
-answer(stale(Why), new, Fleet, _, _) :-
+    attempt(Attempt, Fleet, Command, Reply).
+answer(stale(down(_)), new-first, Fleet, Command, Reply) :-
+    !,
+    attempt(again, Fleet, Command, Reply).
+answer(stale(Why), _, Fleet, _, _) :-
     failed(Why, Fleet).
 answer(broken(Why), _, Fleet, _, _) :-
     failed(Why, Fleet).

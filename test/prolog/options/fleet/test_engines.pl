@@ -438,6 +438,14 @@ test(connections_that_break_do_not_matter) :-
                         peer_do(beta, fleet_hosts(lab, _, [])) )),
                up([alpha,beta]) )).
 
+test(one_new_connection_that_breaks_does_not_matter) :-
+    with_cut(Proxy,
+             ( forall(between(1, 5, _),
+                      ( proxy_cut_after(Proxy, down, 1),
+                        proxy_cut(Proxy),
+                        peer_do(beta, fleet_hosts(lab, _, [])) )),
+               up([alpha,beta]) )).
+
 test(answer_that_is_cut_is_an_error_or_comes_again,
      [forall(member(Bytes, [1,5,20]))]) :-
     with_cut(Proxy,
