@@ -18,9 +18,6 @@
 %   equivalent(File, Predicate, Kind, Old, New, Reason): Old and New are the
 %   words of the text before and after.
 
-equivalent('prolog/typhon/tools/page/overlays.pl', predicate_dict/2, constants,
-           "user, comment", "comment, user",
-           "module and place of a comment are for warnings, which are not printed").
 equivalent('prolog/typhon/options/quotas/usage.pl', spend_shared/3, goal,
            "once(quota_shared(Host, _, What, _))", "true",
            "acts are counted that no quota bounds").

@@ -53,7 +53,7 @@ says(option_with_an_equals_sign, host_start(a, [port=9700]),
      ["host option port=9700", "port"]).
 says(setting_of_a_mechanism,
      sequence_start(s, [], [], [settings([dleta-1])], _),
-     ["there are delta, theta, maximum, window, patience, strategy"]).
+     ["there are delta, theta, maximum, window, strategy, patience"]).
 says(topology, network_start(rnig(4), _, []),
      ["no topology rnig(4) (did you mean ring(N)?)", "grid(Rows,Cols)"]).
 says(arguments_of_a_topology, network_start(grid(3), _, []),

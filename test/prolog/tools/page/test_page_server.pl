@@ -463,7 +463,7 @@ test(parameters, condition(installed(studies))) :-
     Delta.name == "delta",
     !,
     assertion(_{ name:"watch", value:"60", values:["inf"], from:1 } :< Watch),
-    assertion(_{ value:"0.5", from:0.01, to:100, step:0.01,
+    assertion(_{ value:"0.5", from:0.01, to:2, step:0.01,
                  about:"penalty bias" } :< Delta).
 
 test(programs, condition(installed(studies))) :-
