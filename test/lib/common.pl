@@ -144,9 +144,15 @@ with_tmp_dir(Dir, Goal) :-
         once(Goal),
         delete_directory_and_contents(Dir)).
 
+%   A process that was killed may have left a directory, and this one its number.
+
 make_tmp_dir(Dir) :-
-    tmp_file(typhon_test, Dir),
-    make_directory_path(Dir).
+    tmp_file(typhon_test, Dir0),
+    (   exists_directory(Dir0)
+    ->  make_tmp_dir(Dir)
+    ;   make_directory_path(Dir0),
+        Dir = Dir0
+    ).
 
 %!  shell_script(+File, +Line) is det.
 %

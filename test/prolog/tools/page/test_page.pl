@@ -476,8 +476,8 @@ scene(a_mechanism_is_started) :-
           .map(s => s.ariaLabel).join()", Sliders),
     assertion(Sliders == "delta, slider,theta, slider,maximum, slider,\c
                           window, slider,patience, slider"),
-    slide("delta", "0.2", "0.81"),
-    slide("patience", "0", "0.01"),
+    slide("delta", "0.81", "0.81"),
+    slide("patience", "0", "0.1"),
     click("dialog button[type=submit]"),
     see("return !document.querySelector('dialog')"),
     see("return [...typhon.store.agents.values()].filter(a => \c
@@ -487,7 +487,7 @@ scene(a_mechanism_is_started) :-
     atom_string(Agent, Id),
     agent_property(Agent, facts(Facts)),
     findall(Name-Value, member(setting(Name, Value), Facts), Settings),
-    assertion(Settings == [start-order, delta-0.81, patience-0.01]),
+    assertion(Settings == [start-order, delta-0.81, patience-0.1]),
     view(map),
     see("return document.querySelector('#details').hidden && \c
          typhon.store.counts.arrived > 20"),
