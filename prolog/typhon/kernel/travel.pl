@@ -22,8 +22,8 @@ This is the interface of the layer: higher layers import from here.
               home_agents_at/2, home_knows/4, outcome_wait/3, whereabouts/2 ]).
 :- reexport(travel/outcomes, [clone_born/2, clones_ask/3, results_ask/4]).
 :- reexport(travel/mail,
-            [ mail_admit/3, mail_lost/3, post/3, post_on/2, post_tried/0, post_via/4,
-              retries_go_on/0 ]).
+            [ mail_admit/3, mail_again/2, mail_lost/3, post/3, post_on/2,
+              post_tried/0, post_via/4, retries_go_on/0 ]).
 :- reexport(travel/sender_authorization,
             [ mail_accepted/5, peer_may_send_for/3, sender_accepted/1,
               senders_check/1, senders_checked/0, with_proof/5 ]).

@@ -3,6 +3,7 @@
             post_via/4,                 % +Id, +Endpoint, +From, +Message
             post_on/2,                  % +Id, +Messages
             post_waiting/2,             % +Id, -Messages
+            mail_again/2,               % +Id, +Mail
             mail_lost/3,                % +Formal, +Id, +Mail
             mail_admit/3,               % +Letter, +Id, +Mail
             backlog/1,                  % +Id
@@ -188,6 +189,15 @@ post_on(Id, Messages) :-
     endpoint_address(Origin),
     max_forwards(Max),
     findall(mail(Origin, From, Text), member(From-Text, Messages), Mail),
+    pass_on(Id, letter(Mail, Max)).
+
+%!  mail_again(+Id, +Mail) is det.
+%
+%   Mail, which waited in this process since Id was away, goes on its way, as in
+%   post_on/2: Id is not where the mail could wait.
+
+mail_again(Id, Mail) :-
+    max_forwards(Max),
     pass_on(Id, letter(Mail, Max)).
 
 pass_on(Id, Letter) :-

@@ -417,11 +417,13 @@ drop_agent(Id, Fleet) :-
     retractall(claimed(Id, Fleet, _)),
     retractall(due(Id, Fleet, _)).
 
-%   Its letters go with it.
+%   Its letters go with it, and later ones; its return is a hop.
 
 send_back(Id, Why, Fleet) :-
     parked(Id, Fleet, Hops, _, _, From, To, Since),
     drop_agent(Id, Fleet),
+    Return is Hops+1,
+    set_agent(Id, Fleet, Return, From),
     parcel(Id, Fleet, Text),
     process_of(From, E),
     process_of(To, Old),

@@ -10,14 +10,15 @@
 :- use_module('../../kernel/agent', [agent_home/2, agent_home_endpoint/2, agent_on/2]).
 :- use_module('../../kernel/base/durable',
               [ after_unit/1, durable/5, durable_assertz/1, durable_drop/3,
-                durable_on/0, durable_restores/0, sync_changes/0 ]).
+                durable_on/0, durable_restores/0, sync_changes/0,
+                unit_of_work/1 ]).
 :- use_module('../../kernel/base/reports', [report/4]).
 :- use_module('../../kernel/base/text', [term_text/2, text_term/2]).
 :- use_module('../../kernel/host',
               [ address_parts/3, alarm_in/3, host/3, hosts_apart/2,
                 scheduler_call/1, time_now/1 ]).
 :- use_module('../../kernel/travel',
-              [ mail_admit/3, mail_lost/3, news_send/3, parcel_admit/3,
+              [ mail_admit/3, mail_again/2, mail_lost/3, news_send/3, parcel_admit/3,
                 parcel_returned/3, senders_checked/0, transfer_arrived/1,
                 transfer_parcel/2, transfer_stays/2 ]).
 :- use_module('../../kernel/wire',
@@ -224,19 +225,23 @@ typhon_mail:mail_kept(Formal, Id, Mail) :-
     catch(term_text(Mail, Text), error(_, _), fail),
     fits(Text),
     letter_asked(Id, '', "", Mail, Answer),
-    (   Answer = kept(_, _)
-    ->  true
-    ;   Answer == unknown,
-        predicate_property(letter(_, _, _), number_of_clauses(Count)),
-        setting(typhon_fleet:letters, Most),
-        Count < Most
-    ),
+    may_wait(Answer, Id),
     format(atom(Name), 'letter~36r', [random(1<<90)]),
     durable_assertz(letter(Id, _, letter(Name, Formal, Mail))),
     (   durable_on
     ->  after_unit(typhon_parking:letters_soon(Id))
     ;   letters_sent(Id)
     ).
+
+%   An agent that has returned to this process meanwhile gets its letter here.
+
+may_wait(kept(_, _), _).
+may_wait(none, Id) :-
+    agent_on(Id, _).
+may_wait(unknown, _) :-
+    predicate_property(letter(_, _, _), number_of_clauses(Count)),
+    setting(typhon_fleet:letters, Most),
+    Count < Most.
 
 %   In virtual time the sender knows where the letter is.
 
@@ -333,6 +338,10 @@ letter_sent(kept(Fleet, Run), Id, _, letter(Name, _, _), kept) :-
     retractall(sent(Name, _, _)),
     assertz(sent(Name, Fleet-Run, Until)),
     alarm_in(Seconds, Id, parked_letters).
+letter_sent(none, Id, N, letter(Name, Formal, Mail), none) :-
+    !,                                  % it has been taken since it was asked for
+    unit_of_work(( letter_over(Id, N, letter(Name, Formal, Mail)),
+                   mail_again(Id, Mail) )).
 letter_sent(Answer, Id, N, Letter, Gone) :-
     letter_over(Id, N, Letter),
     ( Answer = kept(_, _) -> Gone = kept ; Gone = lost ).

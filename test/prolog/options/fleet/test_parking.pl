@@ -11,7 +11,7 @@
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex),
               [delete_directory_and_contents/1, directory_file_path/3]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [last/2, member/2]).
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_create/3]).
@@ -65,6 +65,15 @@ returned(Agents) :-
     sort(Agents, Sorted),
     sort(As, Sorted),
     forall(member(parked(_, Host, _, _), Parked), Host == Alpha).
+
+%   engine_knows(+Redis, +Home, +Agent, -Address): where Agent, born at Home, is.
+
+engine_knows(Redis, Home, Agent, Address) :-
+    atom_concat('f:{lab}:agents:', Home, Key),
+    redis_line(Redis, [hget, Key, Agent], [Text]),
+    split_string(Text, " \"", " \"", Words),
+    last(Words, Last),
+    atom_string(Address, Last).
 
 %   gone(+Agents): the engine has them for certain.
 
@@ -374,6 +383,33 @@ test(agent_that_cannot_be_sent_stays_parked,
                  catch(fleet_park_send(lab, A), error(Formal, _), true),
                  parked([A]),
                  fleet_park_drop(lab, A),
+                 agent_send(A, last),
+                 agent_result(A, _, 60) )).
+
+%   Where the letter was to be sent, the agent was parked at that time.
+
+test(letter_reaches_an_agent_that_has_just_returned,
+     Result == [host_unreachable(Robot),Alpha,2]) :-
+    with_robot([fsync(always)], [], _, Robot,
+               ( peer_kill(robot),
+                 address(alpha, Alpha),
+                 visitor(Robot, 600, A),
+                 gone([A]),
+                 fleet_park_drop(lab, A),
+                 wait_until(typhon_agents:agent_on(A, _), 30),
+                 atomic_list_concat([_,Here], @, Alpha),
+                 typhon_mail:mail_kept(host_unreachable(Robot), A,
+                                       [mail(Here, user, last)]),
+                 agent_result(A, Result, 60) )).
+test(engine_knows_that_an_agent_returns, At == Alpha) :-
+    with_robot([fsync(always)], [], Redis, Robot,
+               ( peer_kill(robot),
+                 address(alpha, Alpha),
+                 visitor(Robot, 600, A),
+                 gone([A]),
+                 fleet_park_drop(lab, A),
+                 atomic_list_concat([_,Here], @, Alpha),
+                 engine_knows(Redis, Here, A, At),
                  agent_send(A, last),
                  agent_result(A, _, 60) )).
 

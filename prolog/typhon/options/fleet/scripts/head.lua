@@ -133,13 +133,15 @@ local function put_letter(e, name, id, text)
   call('HINCRBY', p..'bytes', e, #text)
 end
 
--- its letters go with it
+-- its letters go with it, and later ones; its return is a hop
 
 local function send_back(id, a, why)
   local old = a.e
   drop_agent(id, a)
   a.e, a.to, a.till = endpoint(a.from), a.from, 'inf'
   put_agent(id, a, why)
+  call('HSET', p..'agents:'..endpoint(id), id,
+       string.format('%.0f', a.hops + 1)..' '..a.to)
   if old == a.e then return end
   for _, row in ipairs(call('XRANGE', p..'park:'..old, '-', '+')) do
     local f = row[2]
