@@ -19,6 +19,7 @@
 :- use_module('../agent',
               [ agent/5, agent_ordered/1, agent_status/3, agent_wakes/2,
                 mail_count/2, with_agent/2 ]).
+:- use_module('../travel', [ended_agent/1]).
 :- use_module(questions,
               [ agent_asked/4, agent_named/2, agent_urge/4,
                 question_answered/2 ]).
@@ -115,18 +116,26 @@ wait_for_end(noted, Agent, Seconds0) :-
 %   ends_within(+Agent, +Seconds) is semidet: Agent ends within Seconds.  Then
 %   this ends an agent that is faulty, or at rest because no worker could run
 %   it.  An order that follows an agent under way may be answered by `none` or
-%   an error while the agent runs on: then it is given again.
+%   an error while the agent runs on: then it is given again.  Of an agent that
+%   has ended here its home need not be asked, which may be away.
 
 ends_within(Agent, Seconds) :-
     deadline(Seconds, Deadline),
     poll_within(Seconds, has_ended(Agent, Deadline)).
 
 has_ended(Agent, Deadline) :-
+    catch(ends_by(Agent, Deadline), error(Formal, Context),
+          (   ended_agent(Agent)
+          ->  true
+          ;   throw(error(Formal, Context))
+          )).
+
+ends_by(Agent, Deadline) :-
     catch(agent_urge(Agent, order(end), Deadline, answer(ended)),
           error(timeout_error(_, _), _),
           fail),
     !.
-has_ended(Agent, _) :-
+ends_by(Agent, _) :-
     (   agent_asked(Agent, dispose, 10, State)
     ->  State == ended
     ;   true

@@ -3,6 +3,7 @@
 :- use_module(library(apply)).
 :- use_module(library(lists)).
 :- use_module(library(plunit)).
+:- use_module(library(prolog_wrap), [unwrap_predicate/2, wrap_predicate/4]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/wire),
               [endpoint_address/1, endpoint_call/5]).
@@ -59,6 +60,19 @@ test(hop_that_came_before_is_recognised, true(Loads == [1,1,0])) :-
                            handed(Image),
                            host_property(alpha, load(Load)) ),
                          Loads) )).
+test(agent_that_ends_before_it_is_asked_for_has_ended, Load == 0) :-
+    with_hosts([alpha],
+               ( image([], Image0),
+                 setarg(5, Image0, [numlist(1, 1 000 000, _)]),
+                 sent(Image0, accepted),
+                 arg(1, Image0, Id),
+                 setup_call_cleanup(
+                     wrap_predicate(typhon_questions:agent_urge(_, _, _, _), late,
+                                    Wrapped,
+                                    ( test_arrival:empty, Wrapped )),
+                     agent_dispose(Id),
+                     unwrap_predicate(typhon_questions:agent_urge/4, late)),
+                 host_property(alpha, load(Load)) )).
 test(hop_before_the_last_known_one_is_recognised_at_home, Load == 0) :-
     with_hosts([alpha],
                ( image([], First),
@@ -182,6 +196,9 @@ arrived(Image) :-
 
 disposed(Id) :-
     agent_dispose(Id),
+    wait_until(host_property(alpha, load(0)), 10).
+
+empty :-
     wait_until(host_property(alpha, load(0)), 10).
 
 alone :-
