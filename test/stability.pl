@@ -7,8 +7,8 @@
 
 runs test/run.pl so often, beside so many processes that are always busy, and
 on one processor only if CORE is given, and appends a line of each run to
-FILE, by default stability.md in this folder. The exit status is 1 if a test
-failed.
+FILE, by default stability.md in this folder. If a test failed the exit status
+is 1, and out/failed.log has what that run printed.
 
 *Threading*: the main thread only.
 */
@@ -18,7 +18,8 @@ failed.
 :- use_module(lib/run_log, [suite_time/2]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
-:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(filesex),
+              [copy_file/2, directory_file_path/3, make_directory_path/1]).
 :- use_module(library(lists), [append/3, last/2, member/2, numlist/3]).
 :- use_module(library(main), [main/0]).
 :- use_module(library(option), [option/2, option/3]).
@@ -60,9 +61,20 @@ run(Names, Options, Status, Dir) :-
         suites_run(Names, Options, Log, Status, Seconds),
         maplist(end_process, Pids)),
     read_file_to_string(Log, Text, []),
+    kept_if_failed(Status, Log),
     result(Text, Status, Result),
     line(Options, Seconds, Result, Line),
     note(Options, Line).
+
+%   out/failed.log has what the last run printed in which a test failed.
+
+kept_if_failed(exit(0), _) :-
+    !.
+kept_if_failed(_, Log) :-
+    project_file(out, Out),
+    make_directory_path(Out),
+    directory_file_path(Out, 'failed.log', Kept),
+    copy_file(Log, Kept).
 
 busy_processes(0, _, []) :-
     !.
