@@ -117,10 +117,11 @@ in_range(Type, Value) =>
 of_kind(Step, Value) :-
     ( integer(Step) -> integer(Value) ; number(Value) ).
 
-in_choice(range(From, To, Step), Value) :-
-    in_range(range(From, To, Step), Value).
 in_choice(Choice, Value) :-
-    Choice == Value.
+    ( is_range(Choice) -> in_range(Choice, Value) ; Choice == Value ).
+
+is_range(range(_, _, _)).
+is_range(within(_, _, _)).
 
 range_text(range(From, _, Step), Text) =>
     kind(Step, Kind),
@@ -138,7 +139,5 @@ range_text(Type, Text) =>
 kind(Step, Kind) :-
     ( integer(Step) -> Kind = 'an integer' ; Kind = 'a number' ).
 
-choice_text(range(From, To, Step), Text) =>
-    range_text(range(From, To, Step), Text).
-choice_text(Choice, Text) =>
-    Text = Choice.
+choice_text(Choice, Text) :-
+    ( is_range(Choice) -> range_text(Choice, Text) ; Text = Choice ).
