@@ -338,10 +338,10 @@ letter_sent(kept(Fleet, Run), Id, _, letter(Name, _, _), kept) :-
     retractall(sent(Name, _, _)),
     assertz(sent(Name, Fleet-Run, Until)),
     alarm_in(Seconds, Id, parked_letters).
-letter_sent(none, Id, N, letter(Name, Formal, Mail), none) :-
-    !,                                  % it has been taken since it was asked for
-    unit_of_work(( letter_over(Id, N, letter(Name, Formal, Mail)),
-                   mail_again(Id, Mail) )).
+letter_sent(none, Id, N, Letter, gone) :-       % it was taken meanwhile
+    !,
+    Letter = letter(_, _, Mail),
+    unit_of_work(( letter_over(Id, N, Letter), mail_again(Id, Mail) )).
 letter_sent(Answer, Id, N, Letter, Gone) :-
     letter_over(Id, N, Letter),
     ( Answer = kept(_, _) -> Gone = kept ; Gone = lost ).
