@@ -174,6 +174,8 @@ test(several_frames, Read == ["", "abc", Long, end_of_file]) :-
     all_bytes(Long),
     framed(["", "abc", Long], Bytes),
     read_frames(Bytes, 10000, 4, Read).
+test(truncated_in_the_length, error(syntax_error(truncated_frame))) :-
+    read_frames("\x0\\x0\", 10000, 1, _).
 test(truncated_frame, [forall(member(Cut, [1, 2, 3, 4, 5, 8, 12, 16])),
                        error(syntax_error(truncated_frame))]) :-
     framed(["abc"], Bytes),
