@@ -5,6 +5,7 @@
 :- use_module(library(filesex), [delete_directory_and_contents/1, directory_file_path/3]).
 :- use_module(library(lists), [list_to_set/2, max_list/2, member/2, min_list/2, selectchk/3]).
 :- use_module('../../prolog/typhon', [network_property/2, network_stop/1]).
+:- use_module('../../prolog/typhon/kernel/base/private', [private_folder/2]).
 :- use_module(cases, [parameters/3, study_cases/3]).
 :- use_module(follow, [new_lines/4]).
 :- use_module(run, [case_begins/5, study_network/4, study_run/3, study_view/3]).
@@ -66,8 +67,8 @@ live(_, end) :-
 given(Name-Value, Name-[Value]).
 
 set_up(Study, Case0, Seed) :-
-    tmp_file(study_live, Directory),
-    make_directory(Directory),
+    tmp_file(study_live, Prefix),
+    private_folder(Prefix, Directory),
     directory_file_path(Directory, 'events.pl', File),
     case_begins(Study, Case0, Seed, File, Case),
     study_network(Study, Case, log(File), Network),
