@@ -42,7 +42,7 @@ test(all_studies_of_the_site, [condition(installed(studies)),
 %   Both play in folders of the same names, as logs hold names of files.
 
 play_all :-
-    tmp_file(playground, Dir),
+    make_tmp_dir(Dir),
     assertz(folder(Dir)),
     maplist(directory_file_path(Dir), [native, fresh, wasm, state],
             [Native, Fresh, Wasm, State]),

@@ -443,8 +443,7 @@ with_engine(_, Goal) :-
 :- dynamic compiled_tree/1.             % Dir
 
 tree_compile :-
-    tmp_file(tree, Dir),
-    make_directory(Dir),
+    make_tmp_dir(Dir),
     assertz(compiled_tree(Dir)),
     project_file('.', Root),
     tree_copy(Root, Dir),

@@ -16,7 +16,7 @@
 *Threading*: for the main thread of a test.
 */
 
-:- use_module(common, [with_tmp_dir/1]).
+:- use_module(common, [make_tmp_dir/1, with_tmp_dir/1]).
 :- use_module(made_once, [made_once/3]).
 :- use_module(peers, [peer_do/2]).
 :- use_module(library(filesex),
@@ -61,7 +61,8 @@ copied(Hosts0, Authors0, Dir) :-
     append(Hosts, [authors|Authors], Names),
     atomic_list_concat(Names, '_', Name),
     made_once(Name, keys_made(Hosts, Authors), Made),
-    process_create(path(cp), ['-Rp', Made, Dir], []).
+    atom_concat(Made, '/.', Content),
+    process_create(path(cp), ['-Rp', Content, Dir], []).
 
 keys_made(Hosts, Authors, Dir) :-
     keys_init(Dir),
@@ -86,7 +87,7 @@ larger(Hosts, Authors, Hosts, Authors).
 %   keys of Name.
 
 authority_begin(Hosts, Authors) :-
-    tmp_file(authority, Dir),
+    make_tmp_dir(Dir),
     copied(Hosts, Authors, Dir),
     assertz(directory(Dir)).
 

@@ -23,8 +23,7 @@ and mosquitto_sub.
 :- use_module(common).
 :- use_module(fixtures).
 :- use_module(library(filesex),
-              [ delete_directory_and_contents/1, directory_file_path/3,
-                make_directory_path/1 ]).
+              [delete_directory_and_contents/1, directory_file_path/3]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(process),
               [process_create/3, process_kill/2, process_wait/2]).
@@ -50,8 +49,7 @@ and mosquitto_sub.
 %   and `term` can be started again, at its port.
 
 broker_start(Options, broker(Port, Dir)) :-
-    tmp_file(typhon_broker, Dir),
-    make_directory_path(Dir),
+    make_tmp_dir(Dir),
     free_port(Port),
     directory_file_path(Dir, conf, Conf),
     setup_call_cleanup(

@@ -5,6 +5,7 @@
             project_file/2,             % +Relative, -Absolute
             with_tmp_dir/1,             % :Goal
             with_tmp_dir/2,             % -Dir, :Goal
+            make_tmp_dir/1,             % -Dir
             shell_script/2,             % +File, +Line
             no_leaks/1,                 % :Goal
             state_size/2,               % +Module, -Facts
@@ -144,7 +145,10 @@ with_tmp_dir(Dir, Goal) :-
         once(Goal),
         delete_directory_and_contents(Dir)).
 
-%   A process that was killed may have left a directory, and this one its number.
+%!  make_tmp_dir(-Dir) is det.
+%
+%   Dir is a new directory: a killed process may have left one of the name that
+%   tmp_file/2 gives to another with its number.
 
 make_tmp_dir(Dir) :-
     tmp_file(typhon_test, Dir0),

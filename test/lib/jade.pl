@@ -15,8 +15,7 @@ executes the commands of jade/2 in order.
 */
 
 :- use_module(common).
-:- use_module(library(filesex),
-              [delete_directory_and_contents/1, make_directory_path/1]).
+:- use_module(library(filesex), [delete_directory_and_contents/1]).
 :- use_module(library(process),
               [process_create/3, process_kill/2, process_wait/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
@@ -43,8 +42,7 @@ jar(Jar) :-
 
 jade_start :-
     jar(Jar),
-    tmp_file(jade, Dir),
-    make_directory_path(Dir),
+    make_tmp_dir(Dir),
     project_file('test/lib/fipa/Peer.java', Source),
     run(javac, ['-nowarn', '-cp', Jar, '-d', Dir, Source]),
     free_port(Mtp),

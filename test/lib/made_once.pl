@@ -7,10 +7,10 @@
 *Threading*: the main thread.
 */
 
+:- use_module(common, [make_tmp_dir/1]).
 :- use_module(texts, [write_file/2]).
 :- use_module(library(filesex),
-              [ delete_directory_and_contents/1, directory_file_path/3,
-                make_directory_path/1 ]).
+              [delete_directory_and_contents/1, directory_file_path/3]).
 
 :- meta_predicate made_once(+, 1, -).
 
@@ -42,7 +42,6 @@ folder(Run) :-
     own(Run),
     !.
 folder(Run) :-
-    tmp_file(typhon_run, Run),
-    make_directory_path(Run),
+    make_tmp_dir(Run),
     assertz(own(Run)),
     at_halt(delete_directory_and_contents(Run)).

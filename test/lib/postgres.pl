@@ -16,6 +16,7 @@ It has its data in a temporary directory, and listens at a socket there.
 *Threading*: the main thread.
 */
 
+:- use_module(common, [make_tmp_dir/1]).
 :- use_module(vanishing_relay,
               [vanishing_order/2, vanishing_start/3, vanishing_stop/1]).
 :- use_module(library(filesex),
@@ -39,8 +40,7 @@ It has its data in a temporary directory, and listens at a socket there.
 %   Start the server; stop it and remove its files; the URL of a schema there.
 
 postgres_start :-
-    tmp_file(typhon_postgres, Dir),
-    make_directory(Dir),
+    make_tmp_dir(Dir),
     owned(Dir),
     run(initdb, ['-D', Dir, '-U', typhon, '-A', trust, '-N', '-E', 'UTF8',
                  '--locale=C']),

@@ -8,14 +8,13 @@
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(filesex),
-              [ delete_directory_and_contents/1, directory_file_path/3,
-                make_directory_path/1 ]).
+              [delete_directory_and_contents/1, directory_file_path/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(process), [process_create/3, process_kill/2,
                                  process_wait/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
-:- use_module(common, [free_port/1, project_file/2, wait_until/2,
-                       with_tmp_dir/1]).
+:- use_module(common, [ free_port/1, make_tmp_dir/1, project_file/2, wait_until/2,
+                        with_tmp_dir/1 ]).
 :- use_module(quick_swipl, [quick_swipl/3]).
 
 /** <module> Platforms of Tartarus, each a process of its own
@@ -72,8 +71,7 @@ node(Program, I, Dir, node(Pid, In, OutFile)) :-
 :- table platform/1.
 
 platform(Swipl) :-
-    tmp_file(tartarus, Dir),
-    make_directory_path(Dir),
+    make_tmp_dir(Dir),
     at_halt(delete_directory_and_contents(Dir)),
     quick_swipl(quick_tartarus, Dir, Swipl).
 

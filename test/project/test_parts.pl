@@ -24,8 +24,7 @@ without(Parts, Dir) :-
     made(Parts, Dir),
     !.
 without(Parts, Dir) :-
-    tmp_file(parts, Dir),
-    make_directory(Dir),
+    make_tmp_dir(Dir),
     assertz(made(Parts, Dir)),
     project_file('.', Root),
     process_create(path(cp),

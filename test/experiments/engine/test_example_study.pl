@@ -6,8 +6,7 @@
 :- use_module('../../lib/common').
 :- use_module('../../lib/study_files', [pandas_python/1, study_command/4]).
 :- use_module(library(debug), [assertion/1]).
-:- use_module(library(filesex),
-              [delete_directory_and_contents/1, make_directory_path/1]).
+:- use_module(library(filesex), [delete_directory_and_contents/1]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(plunit)).
@@ -77,8 +76,7 @@ made(Dir, Output) :-
     there(Dir, Output),
     !.
 made(Dir, Output) :-
-    tmp_file(example_study, Dir),
-    make_directory_path(Dir),
+    make_tmp_dir(Dir),
     at_halt(delete_directory_and_contents(Dir)),
     project_file('examples/studies/coverage.pl', Study),
     study_command(Dir, [Study, '--runs', 10, '--out', out], exit(0), Output),

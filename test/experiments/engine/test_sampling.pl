@@ -15,8 +15,7 @@
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(http/json), [atom_json_dict/3]).
 :- use_module(library(filesex),
-              [ delete_directory_and_contents/1, directory_file_path/3,
-                make_directory_path/1 ]).
+              [delete_directory_and_contents/1, directory_file_path/3]).
 :- use_module(library(lists), [append/3, member/2, numlist/3]).
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_create/3, process_wait/2]).
@@ -232,8 +231,7 @@ tables(Tables) :-
     made(Tables),
     !.
 tables(Tables) :-
-    tmp_file(tables, Dir),
-    make_directory_path(Dir),
+    make_tmp_dir(Dir),
     at_halt(delete_directory_and_contents(Dir)),
     table(Lines),
     atomic_list_concat(Lines, '\n', Text),

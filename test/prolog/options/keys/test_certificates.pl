@@ -4,8 +4,7 @@
 :- use_module(library(plunit)).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(filesex),
-              [ delete_directory_and_contents/1, directory_file_path/3,
-                make_directory_path/1 ]).
+              [delete_directory_and_contents/1, directory_file_path/3]).
 :- use_module(library(lists), [member/2, subtract/3]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module('../../../../app/typhon/keys',
@@ -27,8 +26,7 @@ are not valid, and another authority with a host `alpha`.
 :- dynamic directory/1.
 
 made :-
-    tmp_file(certificates, Dir),
-    make_directory_path(Dir),
+    make_tmp_dir(Dir),
     assertz(directory(Dir)),
     maplist(directory_file_path(Dir), [own,other], [Own,Other]),
     keys_init(Own),
