@@ -52,7 +52,8 @@ worker by on_demand_later/1.
 
 :- dynamic
     loaded/1,                   % Part
-    directory/1.                % Directory of the parts
+    directory/1,                % Directory of the parts
+    present/1.                  % File: of a part, which Prolog has loaded
 
 :- module_property(typhon_on_demand, file(Source)),
    file_directory_name(Source, Base),
@@ -132,8 +133,13 @@ is_later(File) :-
 
 settings:current_setting(Name, Module, Type, Default, Text, Path:0) :-
     part_setting(Name, Module, Type, Default, Text, File),
+    \+ present(File),
     path(File, Path),
-    \+ source_file(Path).
+    (   source_file(Path)
+    ->  assertz(present(File)),         % asked often; files remain loaded
+        fail
+    ;   true
+    ).
 
 path(File, Path) :-
     directory(Directory),
