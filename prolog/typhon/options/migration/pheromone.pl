@@ -5,9 +5,9 @@
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(apply), [maplist/2]).
+:- use_module(library(apply), [convlist/3, exclude/3, maplist/2]).
 :- use_module(library(error), [is_of_type/2, must_be/2, resource_error/1]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [member/2, same_length/2, subtract/3]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/base/compiling', [topics/1]).
@@ -117,25 +117,28 @@ spread(Host-Place, From, Signal) :-
     arg(2, Signal, Source),
     host(Host, Here, Place),
     host_neighbours(Host, Neighbours),
-    findall(Name-Endpoint,
-            ( member(To, Neighbours), To \== From, To \== Source,
-              address_parts(To, Name, Endpoint) ),
-            Hosts),
+    subtract(Neighbours, [From,Source], Hosts),
     inform(Hosts, smelt(Here, Signal)).
 
 %   One worker informs all hosts of this process, one after the other: waking a
 %   worker takes longer than its work at a host.
 
 inform(Hosts, News) :-
-    endpoint_address(Own),
-    findall(Name-Place,
-            ( member(Name-Own, Hosts), host(Name, _, Place) ), Here),
+    convlist(host_here, Hosts, Here),
     (   Here == []
     ->  true
     ;   scheduler_call(typhon_pheromone:news(Here, News))
     ),
-    forall(( member(Name-Endpoint, Hosts), Endpoint \== Own ),
-           post(Endpoint, Name, News)).
+    (   same_length(Here, Hosts)        % usually
+    ->  true
+    ;   endpoint_address(Own),
+        forall(( member(Host, Hosts), address_parts(Host, Name, Endpoint),
+                 Endpoint \== Own ),
+               post(Endpoint, Name, News))
+    ).
+
+host_here(Address, Name-Place) :-
+    host(Name, Address, Place).
 
 post(Endpoint, Name, News) :-
     catch(endpoint_post(Endpoint, pheromone, pheromone(Name, News)),
@@ -268,10 +271,7 @@ withdraw_here(Problem) :-
 spread_withdrawal(Host-Place, Source, Problem) :-
     host(Host, _, Place),
     host_neighbours(Host, Neighbours),
-    findall(Name-Endpoint,
-            ( member(To, Neighbours), To \== Source,
-              address_parts(To, Name, Endpoint) ),
-            Hosts),
+    exclude(==(Source), Neighbours, Hosts),
     inform(Hosts, withdrawn(Source, Problem)).
 
 %!  pheromone_here(?Problem, -Source, -Strength) is nondet.
