@@ -374,7 +374,9 @@ mobile(outside(Heads), Agent) :-
     has_rule(Heads, Agent).
 
 has_rule([Head|Heads], Agent) :-
-    (   ( state_rule(Agent, Head) ; service_waits(Head, Agent, _) )
+    (   '$get_predicate_attribute'(Agent:Head, number_of_rules, Count),
+        Count \== 0,                    % usually not: no more is called
+        ( state_rule(Agent, Head) ; service_waits(Head, Agent, _) )
     ->  true
     ;   has_rule(Heads, Agent)
     ).
