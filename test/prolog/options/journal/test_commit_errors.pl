@@ -19,7 +19,8 @@ again, and all its threads go on.
 
 :- on_demand_load(host_option, journal).
 
-%   The store fails with Formal after N more commits.
+%   The store fails with Formal after N more commits.  Changed with the mutex
+%   `commit_errors`: a commit removes the fact before it adds it again.
 
 :- dynamic failing/2.                   % N, Formal
 
@@ -139,7 +140,7 @@ round(N, Beta, Listener, Failed) :-
     sent(G, to(Gamma)),
     wait_until(agent_property(G, host(Gamma)), 20),
     wait_until(\+ typhon_news:pauses(_), 20),
-    retract(failing(Left, _)),
+    with_mutex(commit_errors, retract(failing(Left, _))),
     sent(G, end),
     wait_until(got(Listener, back(N)), 30),
     sent(M, end),
