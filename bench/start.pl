@@ -32,7 +32,7 @@ report(Name, Seconds0-_, Seconds1-Bytes) :-
 %   measured(+What, -Median): Seconds-Bytes of the process.
 
 measured(What, Seconds-Bytes) :-
-    findall(S-B, ( between(1, 9, _), run(What, S, B) ), Runs),
+    findall(S-B, ( between(1, 5, _), run(What, S, B) ), Runs),
     findall(S, member(S-_, Runs), Ss),
     findall(B, member(_-B, Runs), Bs),
     median(Ss, Seconds),

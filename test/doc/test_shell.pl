@@ -5,10 +5,11 @@
 %   Commands are the lines of indented blocks that begin with a program, and
 %   what stands after `$ ` there. Those of one document run in turn, in one
 %   copy of the tree, with names of this machine in place of those in the
-%   document (names/2). How each is run follows from how/2: some serve until
-%   the document ends, and long commands only print what they would do
-%   (long/2). Commands that need a machine that the suite does not have are in
-%   elsewhere/1.
+%   document (names/2). The first command with a program of Prolog is run by the
+%   swipl of this machine, further ones by one that has the modules of the tree
+%   loaded. How each is run follows from how/2: some serve until the document
+%   ends, and long commands only print what they would do (long/2). Commands
+%   that need a machine that the suite does not have are in elsewhere/1.
 
 :- use_module('../lib/common').
 :- use_module('../lib/documents', [document/1]).
@@ -18,8 +19,8 @@
 :- use_module(library(apply), [foldl/4]).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex),
-              [ copy_file/2, delete_directory_and_contents/1, directory_file_path/3,
-                make_directory_path/1 ]).
+              [ copy_file/2, delete_directory_and_contents/1,
+                directory_file_path/3, make_directory_path/1 ]).
 :- use_module(library(lists), [append/2, append/3, member/2]).
 :- use_module(library(plunit)).
 :- use_module(library(process),
@@ -149,15 +150,14 @@ how(_, ends("")).
 
 %   long(?Part, ?With): commands with Part may take minutes or hours (make thesis,
 %   demo, bench, chaos; all studies), and are not run: with the option With, make
-%   only prints its recipe, and a study its runs; readings have none. An attack has
-%   one round.
+%   only prints its recipe, and studies and counts their runs; readings have
+%   none. An attack has one round.
 
 long("make ", " -n").
 long("study.pl -- ", " --list").
 long("readings.pl -- ", " --collect").
 long("chaos/supervised.pl", " --rounds=1").
-long("counts.pl -- 3.3 ", " --list").
-long("counts.pl ", " --runs 1").
+long("counts.pl ", " --list").          % test_counts counts
 
 serving("typhon.pl host ").
 serving("typhon.pl network ").
@@ -270,7 +270,6 @@ without_digits(Rest, Rest).
 
 run_document(File, Failed, Dir) :-
     commands(File, Commands),
-    prepare(Dir),
     names(Dir, Names),
     call_cleanup(
         findall(Failure,
@@ -306,6 +305,26 @@ run(ends(With), Command0, Dir, Why) :-
     ;   Why = Status-Text
     ).
 
+%   programs(+Command, -Bin): the directory of the swipl for Command.
+
+:- dynamic tried/1.                     % Program, as app/typhon.pl
+
+programs(Command, Bin) :-
+    program(Command, Program),
+    tried(Program),
+    !,
+    quick_programs(Bin).
+programs(Command, Bin) :-
+    forall(program(Command, Program), assertz(tried(Program))),
+    current_prolog_flag(executable, Swipl),
+    file_directory_name(Swipl, Bin).
+
+program(Command, Program) :-
+    split_string(Command, " ", "", Words),
+    member(Program, Words),
+    sub_string(Program, _, _, 0, ".pl"),
+    !.
+
 %   Output goes to a file: a pipe would delay the end of a server.
 
 ended(Command, Dir, Status, Text) :-
@@ -318,10 +337,9 @@ ended(Command, Dir, Status, Text) :-
 
 shell_process(Command0, Dir, File, Pid) :-
     directory_file_path(Dir, bin, Bin),
-    current_prolog_flag(executable, Swipl),
-    file_directory_name(Swipl, SwiplDir),
+    programs(Command0, SwiplBin),
     getenv('PATH', Path0),
-    atomic_list_concat([Bin, SwiplDir, Path0], :, Path),
+    atomic_list_concat([Bin, SwiplBin, Path0], :, Path),
     format(atom(Command), '~s', [Command0]),
     setup_call_cleanup(
         open(File, write, Out),
@@ -436,28 +454,41 @@ with_engine(_, Goal) :-
                 *             FILES            *
                 *******************************/
 
-%   The documents get copies of one copy of the tree, which is compiled as an
-%   installed pack is, and a swipl that has libraries of SWI-Prolog loaded:
-%   programs load in half the time.
+%   Copies of the tree for documents are made in one place one after the other,
+%   as modules that are loaded before are known by the names of their files.
 
-:- dynamic compiled_tree/1.             % Dir
+:- dynamic place/1,                     % Dir, with the folders below
+           quick_programs/1.            % Dir
 
-tree_compile :-
-    make_tmp_dir(Dir),
-    assertz(compiled_tree(Dir)),
+original(Dir) :-
+    place_for(original, Dir).
+
+tree(Dir) :-
+    place_for(tree, Dir).
+
+place_for(Name, Dir) :-
+    place(Place),
+    directory_file_path(Place, Name, Dir).
+
+make_place :-
+    make_tmp_dir(Place),
+    assertz(place(Place)),
     project_file('.', Root),
-    tree_copy(Root, Dir),
-    current_prolog_flag(executable, Swipl),
-    process_create(Swipl, ['-q', 'app/typhon/compile.pl'], [cwd(Dir)]),
-    directory_file_path(Dir, bin, Bin),
+    original(Original),
+    make_directory(Original),
+    tree_copy('-Rp', Root, Original),
+    place_for(bin, Bin),
     make_directory(Bin),
-    quick_swipl(quick_system, Bin, _).
+    with_tree(quick_programs(Bin)).
 
-tree_remove :-
-    forall(retract(compiled_tree(Dir)), delete_directory_and_contents(Dir)).
+quick_programs(Bin, Dir) :-
+    directory_file_path(Dir, 'test/lib/quick_study.pl', Start),
+    quick_swipl(Start, Bin, Quick),
+    file_directory_name(Quick, Programs),
+    assertz(quick_programs(Programs)).
 
-tree_copy(From, To) :-
-    tree_copy('-Rp', From, To).
+remove_place :-
+    forall(retract(place(Dir)), delete_directory_and_contents(Dir)).
 
 tree_copy(Options, From, To) :-
     directory_files(From, Entries),
@@ -468,13 +499,23 @@ tree_copy(Options, From, To) :-
     append([[Options], Copied, [To]], Args),
     process_create(path(cp), Args, [cwd(From)]).
 
-%   Dir is a copy of the tree with links for files, as commands write into other
-%   ones (or write the same again, as pictures of doc/). In its bin are scp and ssh
-%   of which every target is the directory `there`, and the Python of the system.
+%   with_tree(:Goal): once(call(Goal, Dir)). Dir is a copy of the tree with links
+%   for files, as commands write into other ones (or write the same again, as
+%   pictures of doc/). In its bin are scp and ssh of which every target is the
+%   directory `there`, and the Python of the system.
+
+:- meta_predicate with_tree(1).
+
+with_tree(Goal) :-
+    tree(Dir),
+    setup_call_cleanup(
+        make_directory(Dir),
+        ( prepare(Dir), once(call(Goal, Dir)) ),
+        process_create(path(rm), ['-rf', Dir], [])).
 
 prepare(Dir) :-
-    compiled_tree(Tree),
-    tree_copy('-Rpl', Tree, Dir),
+    original(Original),
+    tree_copy('-Rpl', Original, Dir),
     forall(member(Name, [bin, there]),
            ( directory_file_path(Dir, Name, New),
              make_directory_path(New) )),
@@ -482,11 +523,10 @@ prepare(Dir) :-
            ( directory_file_path(Dir, Name, File), write_file(File, Text) )),
     forall(copy_of(Name, From),
            ( directory_file_path(Dir, Name, File),
-             project_file(From, Original),
-             copy_file(Original, File) )),
-    forall(member(Name, ['bin/ssh', 'bin/scp', 'bin/python3']),
-           ( directory_file_path(Dir, Name, File),
-             process_create(path(chmod), ['+x', File], []) )).
+             project_file(From, Source),
+             copy_file(Source, File) )),
+    process_create(path(chmod), ['+x', 'bin/ssh', 'bin/scp', 'bin/python3'],
+                   [cwd(Dir)]).
 
 file_of('.typhon.cookie', "a cookie of this test").
 file_of('program.pl', "p.\n").
@@ -501,11 +541,11 @@ copy_of('visitor.pl', 'examples/agents/hello.pl').
 copy_of('repair.pl', 'payloads/allocation/nearest.pl').
 copy_of('my.pl', 'examples/studies/coverage.pl').
 
-:- begin_tests(shell, [setup(tree_compile), cleanup(tree_remove)]).
+:- begin_tests(shell, [setup(make_place), cleanup(remove_place)]).
 
 test(commands_run,
      [ forall(document_with_commands(File)), Failed == [] ]) :-
-    with_tmp_dir(Dir, with_engine(File, run_document(File, Failed, Dir))).
+    with_engine(File, with_tree(run_document(File, Failed))).
 
 %   test_course checks hand-ins as the course does.
 

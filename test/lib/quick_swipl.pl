@@ -22,8 +22,8 @@ process is this program, too; otherwise it behaves as `swipl`.
 %
 %   Program is a file in Dir; or the `swipl` that runs this, if the file does
 %   not run: some find their libraries of C only from where they are. Start is
-%   the file of this folder that is loaded: quick_start, or quick_system, which
-%   is no part of this tree.
+%   the file that is loaded, or its name in this folder: quick_start, or
+%   quick_system, which is no part of this tree.
 
 quick_swipl(Dir, Program) :-
     quick_swipl(quick_start, Dir, Program).
@@ -31,8 +31,7 @@ quick_swipl(Dir, Program) :-
 quick_swipl(Name, Dir, Program) :-
     current_prolog_flag(executable, Swipl),
     directory_file_path(Dir, swipl, Quick),
-    format(atom(File), 'test/lib/~w.pl', [Name]),
-    project_file(File, Start),
+    start_file(Name, Start),
     (   succeeds(Swipl, [ '-f', none, '-o', Quick, '-c', Start,
                           '--class=development', '--stand-alone=true',
                           '--autoload=false', '--on-error=print' ]),
@@ -40,6 +39,13 @@ quick_swipl(Name, Dir, Program) :-
     ->  Program = Quick
     ;   Program = Swipl
     ).
+
+start_file(Start, Start) :-
+    is_absolute_file_name(Start),
+    !.
+start_file(Name, Start) :-
+    format(atom(File), 'test/lib/~w.pl', [Name]),
+    project_file(File, Start).
 
 succeeds(Program, Args) :-
     process_create(Program, Args,
