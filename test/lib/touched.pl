@@ -14,6 +14,7 @@ Files are named from the directory of the project on.
 :- use_module(common, [project_file/2]).
 :- use_module(suites, [all_suites/1, suite_name/2]).
 :- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(apply), [include/3]).
 :- use_module(library(filesex),
               [directory_file_path/3, directory_member/3]).
 :- use_module(library(lists), [append/3, member/2]).
@@ -83,19 +84,20 @@ touched_suites(Files, Suites) :-
     keysort(Pairs0, Pairs),
     pairs_values(Pairs, Suites).
 
-%   change(Files, Names, Folders, Executing, Texts): Names of files, Folders in
-%   which suites are near, the suites that execute one of Files.
+%   change(Files, Names, Folders, Executing, Naming): Names of files, Folders in
+%   which suites are near, the suites that execute or name one of Files.
 
-change(Files0, change(Files, Names, Folders, Executing, Texts)) :-
+change(Files0, change(Files, Names, Folders, Executing, Naming)) :-
     findall(Test-Text, test_text(Test, Text), Texts),
-    with_users(Files0, Texts, Files),
+    with_users(Files0, [], Texts, Files),
     findall(Name, ( member(File, Files), plain_name(File, Name) ), Names),
     findall(Folder, ( member(File, Files), folder(File, Folder) ), Folders),
     ( terms('out/coverage.pl', Coverage) -> true ; Coverage = [] ),
     findall(Suite,
             ( member(executes(Suite, File, _), Coverage),
               memberchk(File, Files) ),
-            Executing).
+            Executing),
+    findall(Test, ( member(File, Files), used_by(File, Texts, Test) ), Naming).
 
 plain_name(File, Name) :-
     file_base_name(File, Base),
@@ -113,10 +115,8 @@ place(Suite, change(_, _, Folders, _, _), 2) :-
     memberchk(Folder, Folders).
 place(Suite, change(_, _, _, Executing, _), 3) :-
     memberchk(Suite, Executing).
-place(Suite, change(Files, _, _, _, Texts), 3) :-
-    memberchk(Suite-Text, Texts),
-    member(File, Files),
-    names(Suite, Text, File).
+place(Suite, change(_, _, _, _, Naming), 3) :-
+    memberchk(Suite, Naming).
 
 %   folder(+File, -Folder) is semidet: the nearest that has suites. Files below
 %   test/ are used by suites of any folder.
@@ -145,56 +145,81 @@ with_suites(Dir, Folder) :-
         with_suites(Above, Folder)
     ).
 
-%   with_users(+Files, +Texts, -Changed): also the files of test/ that use
-%   changed files of test/, and so on; but suites are used by none.
+%   with_users(+Files, +Before, +Texts, -Changed): also the files of test/ that
+%   use changed files of test/, and so on; but suites are used by none. The users
+%   of Before are among Before and Files.
 
-with_users(Files, Texts, Changed) :-
+with_users([], Changed, _, Changed) :-
+    !.
+with_users(Files, Before, Texts, Changed) :-
+    append(Files, Before, Known),
     findall(Test,
-            ( member(Test-Text, Texts),
-              \+ memberchk(Test, Files),
-              \+ suite_name(Test, _),
-              member(File, Files),
+            ( member(File, Files),
               sub_atom(File, 0, _, _, 'test/'),
-              names(Test, Text, File) ),
+              used_by(File, Texts, Test),
+              \+ suite_name(Test, _),
+              \+ memberchk(Test, Known) ),
             Users0),
     sort(Users0, Users),
-    (   Users == []
-    ->  Changed = Files
-    ;   append(Users, Files, More),
-        with_users(More, Texts, Changed)
-    ).
+    with_users(Users, Known, Texts, Changed).
 
-test_text(Test, Text) :-
+%   used_by(+File, +Texts, -Test) is nondet: more than once, perhaps.
+
+used_by(File, Texts, Test) :-
+    findall(Name, name_of(File, Name), Names),
+    member(Test-Text, Texts),
+    member(Name, Names),
+    has_name(Name, Test, Text).
+
+%   test_text(-Test, -Text) is nondet. Text is text(Whole, Paths): Paths are the
+%   words that have a slash, as most names are sought in these few only.
+
+test_text(Test, text(Whole, Paths)) :-
     project_file(test, Dir),
     directory_member(Dir, Path, [recursive(true), extensions([pl])]),
     project_file(Test, Path),
-    read_file_to_string(Path, Text, [encoding(utf8)]).
+    read_file_to_string(Path, Whole, [encoding(utf8)]),
+    split_string(Whole, "\n", "", Lines),
+    include(has_slash, Lines, WithSlash),
+    atomic_list_concat(WithSlash, ' ', Joined),
+    split_string(Joined, " '\"(,", "", Words0),
+    include(has_slash, Words0, Words1),
+    sort(Words1, Words),
+    atomic_list_concat(Words, ' ', Paths).
 
-%   names(+Test, +Text, +File) is semidet: as imports do, by the last two names
-%   of its path, or as a library, or, in the same folder, by its own.
-
-names(Test, Text, File) :-
-    name_of(Test, File, Name),
-    sub_string(Text, _, _, _, Name),
+has_slash(Text) :-
+    sub_string(Text, _, _, _, "/"),
     !.
 
-name_of(_, File, Name) :-
+%   name_of(+File, -Name) is nondet: a text uses File as imports do, by the last
+%   two names of its path, or as a library, or, in the same folder, by its own.
+
+name_of(File, whole(File)) :-
+    file_directory_name(File, '.').
+name_of(File, path(Name)) :-
     file_directory_name(File, Dir),
-    (   Dir == '.'
-    ->  Name = File
-    ;   file_base_name(Dir, Parent),
-        plain_name(File, Stem),
-        directory_file_path(Parent, Stem, Name)
-    ).
-name_of(_, File, Name) :-
+    Dir \== '.',
+    file_base_name(Dir, Parent),
+    plain_name(File, Stem),
+    directory_file_path(Parent, Stem, Name).
+name_of(File, whole(Name)) :-
     atom_concat('prolog/', Rest, File),
     file_name_extension(Library, pl, Rest),
     format(atom(Name), 'library(~w)', [Library]).
-name_of(Test, File, Name) :-
-    file_directory_name(Test, Dir),
+name_of(File, beside(Dir, Name)) :-
     file_directory_name(File, Dir),
     plain_name(File, Stem),
     format(atom(Name), 'use_module(~w,', [Stem]).
+
+has_name(Name, Test, Text) :-
+    part(Name, Test, Text, Word, Part),
+    sub_string(Part, _, _, _, Word),
+    !.
+
+part(whole(Word), _, text(Whole, _), Word, Whole).
+part(path(Word), _, text(_, Paths), Word, Paths).
+part(beside(Dir, Word), Test, text(Whole, _), Word, Whole) :-
+    file_directory_name(Test, Dir).
 
 %!  within_budget(+Suites, +Budget, -Taken, -Left) is det.
 %
