@@ -19,8 +19,9 @@ PART ?= all
 DOCUMENTS ?=
 TOUCHED ?=
 MAKEFLAGS += --no-print-directory
-ENTRY_POINTS = $(wildcard prolog/typhon.pl app/typhon.pl test/run.pl \
-    experiments/study.pl bench/run.pl)
+# What is checked in one process: not two files without a module.
+ALONE = $(wildcard prolog/typhon.pl bench/run.pl)
+TOGETHER = $(wildcard app/typhon.pl test/run.pl experiments/study.pl)
 # Of a target whose files the small archive lacks.
 NEEDS = @[ -e $(1) ] || { echo "make $@: $(1) is not part of this" \
     "installation: install the full archive" >&2; exit 2; }
@@ -119,10 +120,13 @@ ifneq ($(wildcard doc/layers.pl),)
 	@$(SWIPL) -q --on-error=status doc/layers.pl -- check
 	@$(SWIPL) -q --on-error=status -g check_promises -t halt test/promises.pl
 endif
-	@for file in $(ENTRY_POINTS); do \
+	@for file in $(ALONE); do \
 	    $(SWIPL) -q --on-error=status --on-warning=status \
 	        -g '$(CHECKS)' -t halt -l $$file || exit 1; \
 	done
+	@$(SWIPL) -q --on-error=status --on-warning=status \
+	    $(foreach file,$(wordlist 2,9,$(TOGETHER)),-g "ensure_loaded('$(file)')") \
+	    -g '$(CHECKS)' -t halt -l $(firstword $(TOGETHER))
 	@echo "check: no mistakes found"
 
 fuzz:                   ## send malformed frames; COUNT=100000, SEED=1, TLS=true
