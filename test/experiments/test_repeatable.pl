@@ -113,5 +113,5 @@ beside(Count, Goal) :-
 
 bursts('while sleep 0.05; do
             i=0
-            while [ $i -lt 20000 ]; do i=$((i+1)); done
+            while [ $i -lt 5000 ]; do i=$((i+1)); done
         done').
