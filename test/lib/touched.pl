@@ -88,7 +88,7 @@ touched_suites(Files, Suites) :-
 %   which suites are near, the suites that execute or name one of Files.
 
 change(Files0, change(Files, Names, Folders, Executing, Naming)) :-
-    findall(Test-Text, test_text(Test, Text), Texts),
+    texts(Texts),
     with_users(Files0, [], Texts, Files),
     findall(Name, ( member(File, Files), plain_name(File, Name) ), Names),
     findall(Folder, ( member(File, Files), folder(File, Folder) ), Folders),
@@ -170,6 +170,13 @@ used_by(File, Texts, Test) :-
     member(Test-Text, Texts),
     member(Name, Names),
     has_name(Name, Test, Text).
+
+%   texts(-Texts): Test-Text of all files of tests, read once.
+
+:- table texts/1.
+
+texts(Texts) :-
+    findall(Test-Text, test_text(Test, Text), Texts).
 
 %   test_text(-Test, -Text) is nondet. Text is text(Whole, Paths): Paths are the
 %   words that have a slash, as most names are sought in these few only.
