@@ -23,16 +23,18 @@ inherit its blocked signals, SIGINT for one.
 :- use_module('lib/left_behind',
               [ kill_all_left_behind/0, kill_left_behind/2, suite_mark/2 ]).
 :- use_module('lib/quick_swipl', [quick_swipl/3]).
-:- use_module('lib/slowness', [measure_slowness/0, patience/2]).
+:- use_module('lib/slowness',
+              [children_seconds/1, measure_slowness/0, patience/2]).
 :- use_module('lib/suites',
-              [all_suites/1, left_out_suites/2, suite_name/2, suite_named/2]).
+              
+              [ all_suites/1, left_out_suites/2, of_studies/1, runs_plainly/1,
+                suite_named/2 ]).
 :- use_module('lib/touched', [suite_times/1]).
 :- use_module(library(apply), [exclude/3, foldl/4, maplist/3]).
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
 :- use_module(library(lists),
-              [ append/2, last/2, member/2, memberchk/2, nth1/3, selectchk/3,
-                sum_list/2 ]).
+              [ append/2, member/2, memberchk/2, selectchk/3, sum_list/2 ]).
 :- use_module(library(main), [main/0]).
 :- use_module(library(pairs), [map_list_to_pairs/3, pairs_values/2]).
 :- use_module(library(process),
@@ -60,24 +62,6 @@ suite_deadline(Seconds) :-
     !.
 suite_deadline(Seconds) :-
     patience(200, Seconds).
-
-%   These suites check how the library is loaded, or the options of swipl, or
-%   start attackers that know only the wire protocol.
-
-plain(pack).
-plain(parts).
-plain(shell).
-plain(search).
-plain(site).
-plain(child_output).
-plain(locale).
-plain(attackers).
-plain(kernel).
-plain(single).
-plain(user_program).
-plain(kinds).
-plain(node_program).
-plain(on_demand).
 
 main(Argv) :-
     arguments(Argv, Names, []),
@@ -135,9 +119,6 @@ study_swipl(Files, Dir, _, Study) :-
     make_directory(StudyDir),
     quick_swipl(quick_study, StudyDir, Study).
 study_swipl(_, _, Quick, Quick).
-
-of_studies(File) :-
-    sub_atom(File, _, _, _, '/test/experiments/').
 
 %   run_suites(+Files, +Jobs, -Suites, +By): Jobs are running now.
 
@@ -308,8 +289,7 @@ start_suite(File, by(quick(Quick, Study), Dir), Place,
         close(Out)).
 
 runs(File, _, Swipl) :-
-    suite_name(File, Name),
-    plain(Name),
+    runs_plainly(File),
     !,
     current_prolog_flag(executable, Swipl).
 runs(File, quick(_, Study), Study) :-
@@ -352,31 +332,16 @@ end_suite(Job, Status, Suite) :-
     assertz(time(File, Spent, Seconds)),
     report(Suite, Problems, Seconds, Spent, Log).
 
-%   spent(-Seconds) is det.
-%
-%   The processor time of the suite that has just been waited for, and of the
-%   processes that it waited for.  0.0 where there is no /proc.
+%   spent(-Seconds) is det: the processor time of the suite that has just been
+%   waited for.
 
 spent(Seconds) :-
-    children_ticks(Ticks),
-    flag(suite_ticks, Before, Ticks),
-    Seconds is (Ticks-Before)/100.0.
+    children_seconds(Now),
+    nb_getval(suite_seconds, Before),
+    nb_setval(suite_seconds, Now),
+    Seconds is Now-Before.
 
-%   In the file, the name of the program, which may hold spaces, and 13 numbers
-%   precede the ticks of user and system.
-
-children_ticks(Ticks) :-
-    catch(read_file_to_string('/proc/self/stat', Text, []), error(_, _), fail),
-    split_string(Text, ")", " \n", Parts),
-    last(Parts, Rest),
-    split_string(Rest, " ", "", Words),
-    nth1(14, Words, User),
-    nth1(15, Words, System),
-    number_string(U, User),
-    number_string(S, System),
-    !,
-    Ticks is U+S.
-children_ticks(0).
+:- initialization(nb_setval(suite_seconds, 0)).
 
 suite_results(File, _, Suite) :-
     exists_file(File),

@@ -2,12 +2,13 @@
 
 /** <module> Runs one test suite
 
-    swipl test/suite.pl -- test/test_x.pl results
+    swipl test/suite.pl -- test/test_x.pl results [tests]
 
 loads the suite, runs it and writes its results to the file `results` as one
 term `suite(Passed, Failed, Skipped, Problems)`: a number, the lists of failed
 and of skipped tests as Unit:Name, and atoms for other problems. Started by
-test/run.pl, one process for each suite.
+test/run.pl, one process for each suite. With `tests`, a list of Unit:Name or
+`all`, only those run, until one of them fails.
 
 plunit keeps its results in dynamic predicates whose first three arguments
 are unit, test and line in SWI-Prolog 9.0 and 9.2 alike.  A test without a
@@ -16,10 +17,11 @@ result was skipped by its condition; if it has none, its setup failed.
 
 :- use_module('lib/common', [missing/1]).
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(pairs), [group_pairs_by_key/2]).
 :- use_module(library(main), [main/0]).
 :- use_module(library(plunit),
-              [ run_tests/0, current_test/5, current_test_unit/2,
+              [ run_tests/0, run_tests/1, current_test/5, current_test_unit/2,
                 set_test_options/1
               ]).
 
@@ -31,15 +33,37 @@ result was skipped by its condition; if it has none, its setup failed.
 %   versions.
 
 main([File, Results]) :-
+    run(File, Results, each).
+main([File, Results, Text]) :-
+    term_to_atom(Tests, Text),
+    assertz(first_failure_to(Results)),
+    run(File, Results, Tests).
+
+run(File, Results, Tests) :-
     set_prolog_flag(encoding, utf8),
-    run_suite(File, Suite),
+    run_suite(File, Tests, Suite),
+    write_results(Results, Suite),
+    halt.
+
+write_results(Results, Suite) :-
     setup_call_cleanup(
         open(Results, write, Out),
         format(Out, '~q.~n', [Suite]),
-        close(Out)),
+        close(Out)).
+
+%   The first failure ends the process.
+
+:- dynamic first_failure_to/1.
+
+:- multifile user:message_hook/3.
+:- dynamic user:message_hook/3.
+
+user:message_hook(plunit(failed(Unit, Name, _, _)), error, _) :-
+    first_failure_to(Results),
+    write_results(Results, suite(0, [Unit:Name], [], [])),
     halt.
 
-run_suite(File, Suite) :-
+run_suite(File, Tests, Suite) :-
     load_suite(File, LoadProblems),
     missing(Packages),
     (   LoadProblems \== []
@@ -47,8 +71,8 @@ run_suite(File, Suite) :-
     ;   Packages \== []
     ->  atomic_list_concat(['all tests, without'|Packages], ' ', Skipped),
         Suite = suite(0, [], [Skipped], [])
-    ;   run_units,
-        suite_results(Suite)
+    ;   run_units(Tests),
+        suite_results(Tests, Suite)
     ).
 
 load_suite(File, Problems) :-
@@ -67,13 +91,24 @@ load_problem('no tests') :-
 %   The results show whether all tests passed; SWI-Prolog 9.2 would otherwise
 %   remove them.
 
-run_units :-
+run_units(Tests) :-
     set_test_options([cleanup(false), run(manual)]),
     not_captured,
-    (   run_tests
+    (   run_chosen(Tests)
     ->  true
     ;   true
     ).
+
+run_chosen(Tests) :-
+    is_list(Tests),
+    !,
+    findall(Unit-Name, member(Unit:Name, Tests), Pairs0),
+    keysort(Pairs0, Pairs),
+    group_pairs_by_key(Pairs, Groups),
+    findall(Unit:Names, member(Unit-Names, Groups), Chosen),
+    run_tests(Chosen).
+run_chosen(_) :-
+    run_tests.
 
 %   The output of tests is not captured, as in plunit of 10: threads that are
 %   created meanwhile would keep the capturing stream, and outlive it.
@@ -86,11 +121,11 @@ not_captured :-
                 *            RESULTS           *
                 *******************************/
 
-suite_results(suite(Passed, Failed, Skipped, Problems)) :-
+suite_results(Tests, suite(Passed, Failed, Skipped, Problems)) :-
     aggregate_all(count, result(passed, _, _, _), Passed),
     findall(Unit:Name, failed(Unit, Name), Failed),
     findall(Unit:Name, skipped(Unit, Name), Skipped),
-    findall(Problem, not_run(Problem), Problems).
+    findall(Problem, not_run(Tests, Problem), Problems).
 
 failed(Unit, Name) :-
     member(Kind, [failed, timeout, sto]),
@@ -116,8 +151,9 @@ skipped(Unit, Name) :-
     without_result(Unit, Name, Options),
     may_skip(Unit, Options).
 
-not_run(Problem) :-
+not_run(Tests, Problem) :-
     without_result(Unit, Name, Options),
+    ( is_list(Tests) -> memberchk(Unit:Name, Tests) ; true ),
     \+ may_skip(Unit, Options),
     format(atom(Problem), 'setup of ~q failed', [Unit:Name]).
 

@@ -1,8 +1,11 @@
 :- module(test_slowness,
           [ measure_slowness/0,
             slowness/1,                 % -Factor
-            patience/2                  % +Seconds, -Longer
+            patience/2,                 % +Seconds, -Longer
+            children_seconds/1          % -Seconds
           ]).
+:- use_module(library(lists), [last/2, nth1/3]).
+:- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(terms), [mapsubterms/3]).
 
 /** <module> How slow this machine is
@@ -109,3 +112,28 @@ system:goal_expansion(Goal, Longer) :-
     sub_atom(File, _, _, _, '/test/').
 
 :- endif.
+
+%!  children_seconds(-Seconds) is det.
+%
+%   The processor time of the processes that this one waited for, and of those
+%   that they waited for.  0.0 where there is no /proc.
+
+children_seconds(Seconds) :-
+    children_ticks(Ticks),
+    Seconds is Ticks/100.0.
+
+%   In the file, the name of the program, which may hold spaces, and 13 numbers
+%   precede the ticks of user and system.
+
+children_ticks(Ticks) :-
+    catch(read_file_to_string('/proc/self/stat', Text, []), error(_, _), fail),
+    split_string(Text, ")", " \n", Parts),
+    last(Parts, Rest),
+    split_string(Rest, " ", "", Words),
+    nth1(14, Words, User),
+    nth1(15, Words, System),
+    number_string(U, User),
+    number_string(S, System),
+    !,
+    Ticks is U+S.
+children_ticks(0).

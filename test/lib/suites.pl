@@ -2,7 +2,9 @@
           [ all_suites/1,               % -Files
             left_out_suites/2,          % +Names, -Skipped
             suite_name/2,               % +File, -Name
-            suite_named/2               % +Name, -File
+            suite_named/2,              % +Name, -File
+            of_studies/1,               % +File
+            runs_plainly/1              % +File
           ]).
 
 /** <module> The test suites of this project, and their names
@@ -81,3 +83,32 @@ is_named(Name, File) :-
     atom_concat(Dir, /, Start),
     sub_atom(File, 0, _, _, Start),
     !.
+
+%!  of_studies(+File) is semidet.
+
+of_studies(File) :-
+    sub_atom(File, _, _, _, 'test/experiments/').
+
+%!  runs_plainly(+File) is semidet.
+%
+%   The suite runs without a saved state: it checks how the library is loaded, or
+%   the options of swipl, or starts attackers that know only the wire protocol.
+
+runs_plainly(File) :-
+    suite_name(File, Name),
+    plain(Name).
+
+plain(pack).
+plain(parts).
+plain(shell).
+plain(search).
+plain(site).
+plain(child_output).
+plain(locale).
+plain(attackers).
+plain(kernel).
+plain(single).
+plain(user_program).
+plain(kinds).
+plain(node_program).
+plain(on_demand).

@@ -1,7 +1,8 @@
 :- module(test_coverage,
           [ record_coverage/2,          % +File, +Names
             load_coverage/1,            % +File
-            suites_of/3                 % +File, +Predicate, -Suites
+            suites_of/3,                % +File, +Predicate, -Suites
+            tests_executing/3           % +Noted, -Tests, -Masks
           ]).
 
 /** <module> Which suites execute which predicates
@@ -11,7 +12,8 @@ app/ and experiments/ notes that it was executed. What was recorded is a file
 of
 
 | suite(Suite, Processor, Seconds)      | it passed, in these times             |
-| executes(Suite, File, Predicates)     | it executed these predicates of File  |
+| tests(Suite, Tests)                   | its tests, Unit:Name-Seconds          |
+| executes(Suite, File, Predicates)     | Predicate-Tests of File: bit N is set if the Nth test executed it, counted from 0 |
 
 Suites that fail in such a copy, since they look at the text of the product or
 are late, run once more in a copy without notes, and are left out if they fail
@@ -26,15 +28,20 @@ there, too.
 :- use_module('../lib/run_log', [suite_time/2]).
 :- use_module('../lib/suites', [all_suites/1, suite_name/2]).
 :- use_module('../lib/touched', [suite_times/1, touched_suites/2]).
-:- use_module(library(apply), [foldl/4]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(apply), [foldl/4, maplist/3]).
+:- use_module(library(assoc), [empty_assoc/1, get_assoc/3, put_assoc/4]).
 :- use_module(library(filesex),
               [directory_file_path/3, directory_member/3, make_directory_path/1]).
-:- use_module(library(lists), [append/3, member/2, memberchk/2]).
-:- use_module(library(pairs), [group_pairs_by_key/2, pairs_values/2]).
+:- use_module(library(lists), 
+              [ append/3, last/2, list_to_set/2, member/2, memberchk/2, nth0/3,
+                nth1/3, sum_list/2 ]).
+:- use_module(library(pairs), 
+              [ group_pairs_by_key/2, pairs_keys_values/3, pairs_values/2 ]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(readutil), [read_file_to_string/3, read_file_to_terms/3]).
 
-:- dynamic suite/3, executes/3.
+:- dynamic suite/3, tests/2, executes/3.
 
 noted(prolog).
 noted(app).
@@ -107,7 +114,7 @@ note_program(Copy, Program, Next0-Numbers0, Next-Numbers) :-
         sort(Ps0, Ps),
         numbered(Ps, Program, Next0, Next, Numbers0, Numbers),
         project_file('test/mutants/hits', Hits),
-        format(string(Load), " :- use_module('~w', []).", [Hits]),
+        loading_text(Hits, Load),
         findall(At-New,
                 ( At = End, New = Load
                 ; member(body(P, Kind, Start, Stop), Bodies),
@@ -122,6 +129,13 @@ note_program(Copy, Program, Next0-Numbers0, Next-Numbers) :-
     ;   Next = Next0,
         Numbers = Numbers0
     ).
+
+%   A cell has no files of test/.
+
+loading_text(Hits, Load) :-
+    format(string(Load),
+           " :- catch(use_module('~w', []), error(_, _), \c
+                      assertz(system:'$hit'(_))).", [Hits]).
 
 numbered([], _, Next, Next, Numbers, Numbers).
 numbered([P|Ps], Program, Next0, Next, Numbers0, Numbers) :-
@@ -193,55 +207,151 @@ suite_paths(Paths) :-
 write_executed(Out, Hits, Base, Suite, Numbers) :-
     directory_file_path(Hits, Base, File),
     (   exists_file(File)
-    ->  read_file_to_terms(File, Hit0, []),
-        sort(Hit0, Hit)
-    ;   Hit = []
+    ->  read_file_to_terms(File, Noted, [])
+    ;   Noted = []
     ),
-    findall(Program-P,
-            ( member(number(N, Program, P), Numbers), memberchk(N, Hit) ),
+    tests_executing(Noted, Tests, Masks),
+    format(Out, '~q.~n', [tests(Suite, Tests)]),
+    findall(Program-(P-Mask),
+            ( member(number(N, Program, P), Numbers),
+              get_assoc(N, Masks, Mask) ),
             Pairs0),
     keysort(Pairs0, Pairs),
     group_pairs_by_key(Pairs, Groups),
     forall(member(Program-Ps, Groups),
            format(Out, '~q.~n', [executes(Suite, Program, Ps)])).
 
+%!  tests_executing(+Noted:list, -Tests:list, -Masks) is det.
+%
+%   Of what hits.pl notes in one suite. Masks is an assoc from numbers of
+%   predicates. What is executed before a test, and by a process that began
+%   earlier, belongs to all tests of the unit.
+
+tests_executing(Noted, Tests, Masks) :-
+    findall(Test, member(begins(_, Test, _), Noted), Named0),
+    list_to_set(Named0, Named),
+    maplist(test_seconds(Noted), Named, Tests),
+    empty_assoc(Empty),
+    foldl(executed(Named), Noted, now(none, [], [], Empty),
+          now(_, _, _, Masks)).
+
+test_seconds(Noted, Test, Test-Seconds) :-
+    aggregate_all(sum(End-Start), test_time(Noted, Test, Start, End), Seconds0),
+    Seconds is round(1000*Seconds0)/1000.0.
+
+%   Cases of one test begin once.
+
+test_time(Noted, Test, Start, End) :-
+    append(_, [begins(Pid, Test, Start)|Rest], Noted),
+    once(( nth1(Next, Rest, begins(Pid, _, _)) ; length(Rest, Next) )),
+    length(Own, Next),
+    append(Own, _, Rest),
+    findall(Clock, member(ends(Pid, Clock), Own), Clocks),
+    last(Clocks, End).
+
+%   now(Test, Before, Processes, Masks): Test is Named, Unit:between or `none`;
+%   Before are numbers that were executed before the next test; Processes are
+%   those that executed something, each Pid-Test.
+
+executed(Named, begins(Pid, Test, _), now(_, Before, Ps, Masks0),
+         now(Test, [], [Pid-main|Ps], Masks)) :-
+    Test = Unit:_,
+    unit_mask(Named, Unit, Mask),
+    foldl(add_mask(Mask), Before, Masks0, Masks).
+executed(_, ends(_, _), now(Test, Before, Ps, Masks),
+         now(between(Test), Before, Ps, Masks)).
+executed(Named, hit(Pid, N), now(Test, Before0, Ps0, Masks0),
+         now(Test, Before, Ps, Masks)) :-
+    (   memberchk(Pid-First, Ps0)
+    ->  Ps = Ps0
+    ;   First = Test,
+        Ps = [Pid-Test|Ps0]
+    ),
+    (   Test = Unit:_
+    ->  Before = Before0,
+        (   memberchk(First, [main, Test])
+        ->  nth0(Index, Named, Test),
+            Mask is 1<<Index
+        ;   unit_mask(Named, Unit, Mask)
+        ),
+        add_mask(Mask, N, Masks0, Masks)
+    ;   Before = [N|Before0],
+        Masks = Masks0
+    ).
+
+unit_mask(Named, Unit, Mask) :-
+    aggregate_all(sum(1<<Index), nth0(Index, Named, Unit:_), Mask).
+
+add_mask(Mask, N, Masks0, Masks) :-
+    ( get_assoc(N, Masks0, Old) -> true ; Old = 0 ),
+    New is Old\/Mask,
+    put_assoc(N, Masks0, New, Masks).
+
 %!  load_coverage(+File) is det.
 
 load_coverage(File) :-
     retractall(suite(_, _, _)),
+    retractall(tests(_, _)),
     retractall(executes(_, _, _)),
     read_file_to_terms(File, Terms, [encoding(utf8)]),
     forall(member(Term, Terms), assertz(Term)).
 
 %!  suites_of(+File, +Predicate, -Suites:list) is det.
 %
-%   The suites that execute Predicate of File, as suite(Suite, Processor,
-%   Seconds). First the suite of the same place in test/, then the quickest.
-%   Of predicates that no suite is known to execute, such as those of facts
-%   only, and of programs of agents: those that a change of File touches. Also
-%   those of its folder and the folders above that are newer than the record.
+%   The suites with tests that execute Predicate of File, as suite(Suite,
+%   Processor, Seconds, Tests), the times being those of Tests. First the suite
+%   of the same place in test/, then the quickest. Of predicates that no test is
+%   known to execute, such as those of facts only, the tests that execute another
+%   one of File; if there are none, as for programs of agents, the suites that
+%   a change of File touches, Tests being `all`. Also those of its folder and the
+%   folders above that are newer than the record.
 
 suites_of(File, Predicate, Suites) :-
-    findall(Suite, executing(File, Predicate, Suite), Executing),
+    findall(Suite, executing(File, Predicate, Suite), Executing0),
+    (   Executing0 == []
+    ->  findall(Suite, executing(File, _, Suite), Executing)
+    ;   Executing = Executing0
+    ),
     (   Executing == []
     ->  touched_suites([File], Touched)
     ;   Touched = []
     ),
-    findall(Order-suite(Suite, Processor, Seconds),
-            ( (   member(suite(Suite, Processor, Seconds), Executing)
-              ;   member(time(Suite, Processor, Seconds), Touched)
-              ;   newer(File, time(Suite, Processor, Seconds)),
-                  \+ memberchk(time(Suite, _, _), Touched)
+    findall(Order-suite(Suite, Processor, Seconds, Tests),
+            ( (   member(suite(Suite, Processor, Seconds, Tests), Executing)
+              ;   Tests = all,
+                  (   member(time(Suite, Processor, Seconds), Touched)
+                  ;   newer(File, time(Suite, Processor, Seconds)),
+                      \+ memberchk(time(Suite, _, _), Touched)
+                  )
               ),
               order(File, Suite, Processor, Order) ),
             Pairs0),
     keysort(Pairs0, Pairs),
     pairs_values(Pairs, Suites).
 
-executing(File, Predicate, suite(Suite, Processor, Seconds)) :-
-    suite(Suite, Processor, Seconds),
-    executes(Suite, File, Ps),
-    memberchk(Predicate, Ps).
+executing(File, Predicate, suite(Suite, Processor, Seconds, Names)) :-
+    suite(Suite, Processor0, Seconds0),
+    executes(Suite, File, Masks),
+    findall(Mask, member(Predicate-Mask, Masks), Own),
+    foldl(united, Own, 0, Mask),
+    Mask =\= 0,
+    tests(Suite, Tests),
+    findall(Name-Time,
+            ( nth0(Index, Tests, Name-Time), getbit(Mask, Index) =:= 1 ),
+            Pairs),
+    pairs_keys_values(Pairs, Names, Times),
+    pairs_values(Tests, AllTimes),
+    sum_list(Times, Sum),
+    sum_list(AllTimes, All),
+    Share is (Sum+0.01)/(All+0.01),
+    loading(Loading),
+    Processor is min(Processor0, Loading)+Share*max(0, Processor0-Loading),
+    Seconds is Seconds0*Share.
+
+united(Mask, Mask0, Mask1) :-
+    Mask1 is Mask0\/Mask.
+
+loading(0.5).                           % seconds, of any suite
 
 newer(File, Time) :-
     suite_times(Times),

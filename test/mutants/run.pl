@@ -5,11 +5,11 @@
     swipl test/mutants/run.pl -- [--count N] [--seed N] [--part PART] [--jobs N]
 
 Changes of the product, drawn at random or those that ../promises.pl declares,
-each run in a copy of the project with the suites that execute the changed
-predicate, until a test fails. Those are the suites of the file
-out/coverage.pl, which the first run records, in the time of all suites;
-`--record` records it anew, of the suites that are named, or of all. Changes
-that are not tried within `--seconds` are counted.
+each run in a copy of the project with the tests that execute the changed
+predicate, until one fails, again if it is run alone, and not without the change.
+Those are the tests of the file out/coverage.pl, which the first run records, in
+the time of all suites; `--record` records it anew, of the suites that are named,
+or of all. Changes that are not tried within `--seconds` are counted.
 
 Printed are, of each change, the test that failed, or that it survived. The
 exit status is 1 if a change survived. A change in equivalent.pl
@@ -21,7 +21,7 @@ drawn.
 
 :- use_module(changes, 
               [changed_text/3, change_text/2, file_changes/2, file_rules/2]).
-:- use_module(copies, [with_copy/1, write_in_copy/3, suite_in_copy/4]).
+:- use_module(copies, [with_copy/1, write_in_copy/3, suite_in_copy/5]).
 :- use_module(coverage,
               [load_coverage/1, record_coverage/2, suites_of/3]).
 :- use_module(equivalent, [equivalent_change/2]).
@@ -29,6 +29,7 @@ drawn.
               [promise/5, promise_change/3, promising/2]).
 :- use_module('../lib/changed_files', [changed_files/1]).
 :- use_module('../lib/common', [project_file/2, with_tmp_dir/1]).
+:- use_module('../lib/slowness', [children_seconds/1, measure_slowness/0]).
 :- use_module('../../app/typhon/arguments', [arguments/3]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [exclude/3, maplist/3, maplist/4]).
@@ -73,7 +74,7 @@ opt_help(until, 'of a worker: the end of --seconds').
 %   The suites that run for one change take about this long, in seconds of
 %   processor time.
 
-budget(90).
+budget(45).
 
 %   part(Part, Start): files of Part begin with Start.
 
@@ -108,7 +109,7 @@ main(Argv) :-
     arguments(Argv, Names, Options),
     (   option(worker(File), Options)
     ->  option(until(Until), Options, 1.0e12),
-        with_copy(work(File, Until))
+        with_copy(work_beside(File, Until))
     ;   mutants([names(Names)|Options], Status),
         halt(Status)
     ).
@@ -135,6 +136,7 @@ mutants(Options, Status) :-
     ->  record([])
     ;   true
     ),
+    measure_slowness,
     with_tmp_dir(try(Mutants, Options, Until, Results)),
     report(Mutants, Results, Status).
 
@@ -263,6 +265,14 @@ start_worker(Dir, Jobs, Until, Mutants, Worker, Pid, Results) :-
                    [file(Run), '--', '--worker', file(File), '--until', Until],
                    [ stdin(null), process(Pid) ]).
 
+%   One copy stays unchanged.
+
+:- dynamic unchanged/1.
+
+work_beside(File, Until, Unchanged) :-
+    assertz(unchanged(Unchanged)),
+    with_copy(work(File, Until)).
+
 work(File, Until, Copy) :-
     read_file_to_terms(File, Mutants, [encoding(utf8)]),
     project_file('out/coverage.pl', Coverage),
@@ -291,21 +301,24 @@ try_one(Copy, Until, mutant(Name, Change, Suites0), Out) :-
     changed_text(Text, Change, Changed0),
     without_style_warnings(Path, Changed0, Changed),
     get_time(Start),
+    children_seconds(Before),
     setup_call_cleanup(
         write_in_copy(Copy, File, Changed),
         outcome(Suites, Copy, Until, Outcome),
         write_in_copy(Copy, File, Text)),
     get_time(End),
+    children_seconds(After),
     Seconds is End-Start,
+    Processor is After-Before,
     change_text(Change, Line),
-    note_outcome(Out, Name, Line, Outcome, Seconds).
+    note_outcome(Out, Name, Line, Outcome, times(Seconds, Processor)).
 
 note_outcome(_, _, _, cut_off, _) :-
     !.
-note_outcome(Out, Name, Line, Outcome, Seconds) :-
-    format(Out, '~q.~n', [result(Name, Line, Outcome, Seconds)]),
+note_outcome(Out, Name, Line, Outcome, Times) :-
+    format(Out, '~q.~n', [result(Name, Line, Outcome, Times)]),
     flush_output(Out),
-    print_outcome(Name, Line, Outcome, Seconds),
+    print_outcome(Name, Line, Outcome, Times),
     flush_output.
 
 change_suites(executing, change(File, _, _, _, _, Predicate, _), Suites) :-
@@ -313,17 +326,17 @@ change_suites(executing, change(File, _, _, _, _, Predicate, _), Suites) :-
     suites_of(File, Predicate, Suites0),
     within_budget(Suites0, 0, Suites).
 change_suites(Names, _, Suites) :-
-    findall(suite(Name, 60, 120), member(Name, Names), Suites).
+    findall(suite(Name, 60, 120, all), member(Name, Names), Suites).
 
 within_budget([], _, []).
-within_budget([suite(S, P, T)|Suites0], Sum0, Suites) :-
+within_budget([suite(S, P, T, Tests)|Suites0], Sum0, Suites) :-
     Sum is Sum0+P,
     budget(Budget),
     (   Sum =< Budget
-    ->  Suites = [suite(S, P, T)|Suites1],
+    ->  Suites = [suite(S, P, T, Tests)|Suites1],
         within_budget(Suites0, Sum, Suites1)
     ;   Sum0 =:= 0
-    ->  Suites = [suite(S, P, T)]
+    ->  Suites = [suite(S, P, T, Tests)]
     ;   Suites = []
     ).
 
@@ -332,18 +345,44 @@ outcome([], _, _, survived) :-
 outcome(_, _, Until, cut_off) :-
     \+ left(Until, _),
     !.
-outcome([suite(Suite, Processor, Seconds)|Suites], Copy, Until, Outcome) :-
+outcome([suite(Suite, Processor, Seconds, Tests)|Suites], Copy, Until, Outcome) :-
     Limit is ceiling(20+3*Processor),
     left(Until, Left),
     Deadline is min(Left, 120+5*Seconds),
-    suite_in_copy(Copy, Suite, limits(Limit, Deadline), Result),
+    suite_in_copy(Copy, Suite, Tests, limits(Limit, Deadline), Result),
     (   Result == killed(hangs),
         \+ left(Until, _)
     ->  Outcome = cut_off
-    ;   Result = killed(Test)
+    ;   Result = killed(Test),
+        is_witness(Copy, Suite, Test, limits(Limit, Deadline))
     ->  Outcome = killed(Suite, Test)
     ;   outcome(Suites, Copy, Until, Outcome)
     ).
+
+%   A test that fails is a witness if it fails again, and not in the project as
+%   it is: on a busy machine tests may be late, or cannot run in a copy.
+
+is_witness(Copy, Suite, Unit:Test, Limits) :-
+    !,
+    without_case(Unit:Test, Unit:Name),
+    suite_in_copy(Copy, Suite, [Unit:Name], Limits, killed(_)),
+    passes_unchanged(Suite, Unit:Name, Limits).
+is_witness(_, _, _, _).
+
+without_case(Unit: @(Name, _), Plain) :-
+    !,
+    Plain = Unit:Name.
+without_case(Test, Test).
+
+:- dynamic passed_unchanged/2.          % Suite, Test
+
+passes_unchanged(Suite, Test, _) :-
+    passed_unchanged(Suite, Test),
+    !.
+passes_unchanged(Suite, Test, Limits) :-
+    unchanged(Copy),
+    suite_in_copy(Copy, Suite, [Test], Limits, passed),
+    assertz(passed_unchanged(Suite, Test)).
 
 %   A variable that occurs once, since a goal is left out, is no test.  The file
 %   of an agent takes no directives but its own.
@@ -367,11 +406,13 @@ atomics_to_string(Parts, String) :-
                 *            REPORT            *
                 *******************************/
 
-print_outcome(Name, Line, killed(Suite, Test), Seconds) :-
-    format("~w killed ~1fs by ~w ~p~n    ~s~n",
-           [Name, Seconds, Suite, Test, Line]).
-print_outcome(Name, Line, survived, Seconds) :-
-    format("~w SURVIVED ~1fs~n    ~s~n", [Name, Seconds, Line]).
+print_outcome(Name, Line, killed(Suite, Test), times(Seconds, Processor)) :-
+    without_case(Test, Plain),
+    format("~w killed ~1fs ~1fs of processor by ~w ~p~n    ~s~n",
+           [Name, Seconds, Processor, Suite, Plain, Line]).
+print_outcome(Name, Line, survived, times(Seconds, Processor)) :-
+    format("~w SURVIVED ~1fs ~1fs of processor~n    ~s~n",
+           [Name, Seconds, Processor, Line]).
 
 report(Mutants, Results, Status) :-
     aggregate_all(count, member(result(_, _, killed(_, _), _), Results),
@@ -380,7 +421,8 @@ report(Mutants, Results, Status) :-
     length(Mutants, Chosen),
     Untried is Chosen-All,
     ( Untried > 0 -> format("~d not tried in time~n", [Untried]) ; true ),
-    format("~d of ~d killed~n", [Killed, All]),
+    aggregate_all(sum(P), member(result(_, _, _, times(_, P)), Results), Spent),
+    format("~d of ~d killed, in ~0f s of processor~n", [Killed, All, Spent]),
     forall(member(result(Name, Line, survived, _), Results),
            format("survived: ~w ~s~n", [Name, Line])),
     (   Killed =:= All

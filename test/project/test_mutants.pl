@@ -2,14 +2,18 @@
 :- use_module('../lib/common').
 :- use_module('../lib/texts', [file_lines/2, write_file/2]).
 :- use_module('../mutants/changes').
-:- use_module('../mutants/copies', [suite_in_copy/4]).
+:- use_module('../mutants/copies', [suite_in_copy/5]).
+:- use_module('../mutants/coverage', [tests_executing/3]).
 :- use_module('../mutants/equivalent',
               [equivalent_change/2, outdated_equivalent/1]).
 :- use_module('../promises', [promise/5, promise_problem/1]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
-:- use_module(library(lists), [member/2, memberchk/2, nth1/3]).
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(assoc), [assoc_to_list/2]).
+:- use_module(library(lists), [member/2, memberchk/2, nth0/3, nth1/3]).
+:- use_module(library(readutil), [read_file_to_terms/3]).
 :- use_module(library(plunit)).
 
 /** <module> Changes that take a promise away, and the table of promises
@@ -98,7 +102,22 @@ suite_of(Dir, Text, Seconds, Result) :-
     make_directory_path(Tests),
     directory_file_path(Tests, 'suite.pl', Runner),
     write_file(Runner, Text),
-    suite_in_copy(Dir, 'any.pl', limits(10, Seconds), Result).
+    suite_in_copy(Dir, 'test_pack.pl', all, limits(10, Seconds), Result).
+
+%   first_failure(+Tests, +Dir, -Suite): d would not end.
+
+first_failure(Tests, Dir, Suite) :-
+    maplist(directory_file_path(Dir), ['test_u.pl', results], [File, Results]),
+    write_file(File, ":- use_module(library(plunit)).\n\c
+                      :- begin_tests(u).\n\c
+                      test(a) :- fail.\n\c
+                      test(b) :- true.\n\c
+                      test(c) :- fail.\n\c
+                      test(d) :- thread_get_message(never).\n\c
+                      :- end_tests(u).\n"),
+    project_file('test/suite.pl', Runner),
+    run_swipl([Runner, --, File, Results, Tests], [timeout(100)], exit(0), _, _),
+    read_file_to_terms(Results, [Suite], []).
 
 :- begin_tests(mutants).
 
@@ -141,6 +160,24 @@ test(suite_that_waits_for_ever_is_ended, Result == killed(hangs)) :-
 test(suite_may_start_cells,
      [condition(missing([cells], [])), Result == killed(ends(exit(0)))]) :-
     with_tmp_dir(limits_itself(Result)).
+test(chosen_tests_run_until_one_fails, Suite == suite(0, [u:c], [], [])) :-
+    with_tmp_dir(Dir, first_failure("[u:b,u:c,u:d]", Dir, Suite)).
+test(chosen_tests_pass, Suite == suite(1, [], [], [])) :-
+    with_tmp_dir(Dir, first_failure("[u:b]", Dir, Suite)).
+test(tests_execute_what_is_noted_between_their_begin_and_end,
+     Tests-Of == [(u:a)-1.0, (u:b)-0.5]-[5-[a,b], 6-[a,b], 7-[a], 8-[a,b], 9-[b]]) :-
+    tests_executing([ hit(1, 5),        % before the unit: both
+                      begins(1, u:a, 0.0), hit(1, 6), hit(2, 7), ends(1, 1.0),
+                      begins(1, u:b, 2.0), hit(1, 6),
+                      hit(2, 8),        % by a process that began in u:a: both
+                      hit(3, 9), ends(1, 2.5) ],
+                    Tests, Masks),
+    assoc_to_list(Masks, List),
+    findall(N-Names,
+            ( member(N-Mask, List),
+              findall(Name, ( nth0(Bit, Tests, (u:Name)-_),
+                              getbit(Mask, Bit) =:= 1 ), Names) ),
+            Of).
 test(equivalent_changes_are_still_possible, Outdated == []) :-
     findall(File, outdated_equivalent(File), Outdated).
 test(order_of_messages_is_equivalent, Orders == [4,6]) :-
@@ -264,7 +301,7 @@ printed(Args, Lines) :-
     split_string(Text, "\n", "\n", Lines).
 
 test(declared_changes_of_documents_within_a_time,
-     Lines == [Untried, "0 of 0 killed"]) :-
+     Lines == [Untried, "0 of 0 killed, in 0 s of processor"]) :-
     aggregate_all(count,
                   ( member(Document, ['doc/security.md', 'doc/wire.md']),
                     promise(_, Document, _, _, _) ),
