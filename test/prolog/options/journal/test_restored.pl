@@ -17,6 +17,7 @@
 :- use_module(library(random), [random_between/3, random_member/2]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/base/durable)).
+:- use_module(library(typhon/options/identity/birth), []).
 :- use_module(library(typhon/kernel/wire),
               [endpoint_address/1, endpoint_process/1]).
 :- use_module(library(typhon/kernel/travel/outcomes),
@@ -143,6 +144,9 @@ forgotten(left, typhon_outcomes:results, I,
             results_keep(Id, [result(I)]) )).
 forgotten(clone, typhon_outcomes:clones, I,
           ( elsewhere(I, Id), clone_born(parent, Id) )).
+forgotten(birth, typhon_birth:births, I,
+          ( elsewhere(I, Id),
+            typhon_birth:remember(Id, birth(Id, hash, certificate, "00")) )).
 
 elsewhere(I, Id) :-
     format(atom(Id), 'x.~d@far@127.0.0.1:1', [I]).

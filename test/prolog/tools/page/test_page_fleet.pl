@@ -53,7 +53,7 @@ goes_and_comes(Base, Beta0) :-
           assertion(Parked == 0),
           wait_until(test_page_fleet:in_state(Base, Beta0, "away", Host), 20),
           assertion(Host.since =:= Since),
-          assertion(Host.parked == 0),
+          assertion([Host.load, Host.arrived, Host.parked] == ["", "", 0]),
           peer_signal(beta, cont),
           feed_event(Feed, [Beta, "", "back"], _),
           wait_until(test_page_fleet:in_state(Base, Beta0, "running", _), 20),
