@@ -12,16 +12,19 @@ Files are named from the directory of the project on: `prolog/typhon.pl`.
 */
 
 :- use_module('../lib/common',
-              [project_file/2, wait_for_end/3, with_tmp_dir/1]).
-:- use_module('../lib/left_behind', 
+              [project_file/2, wait_until/2, with_tmp_dir/1]).
+:- use_module('../lib/slowness', [process_seconds/2]).
+:- use_module('../lib/left_behind',
               [ kill_all_left_behind/0, kill_left_behind/2, suite_mark/2 ]).
 :- use_module('../lib/suites', [of_studies/1, runs_plainly/1]).
 :- use_module(library(apply), [exclude/3]).
-:- use_module(library(filesex), 
+:- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(process),
-              [process_create/3, process_kill/2, process_wait/2]).
+              [ process_create/3, process_kill/2, process_wait/2,
+                process_wait/3
+              ]).
 :- use_module(library(readutil), [read_file_to_terms/3]).
 
 :- meta_predicate with_copy(1), in_copy(1, +).
@@ -175,7 +178,7 @@ suite_in_copy(Copy, Suite, Tests, limits(Processor, Seconds), Result) :-
                    [ cwd(Copy), stdin(null), process(Pid),
                      environment(['TYPHON_SUITE'=Mark, 'TYPHON_QUICK'=Program])
                    ]),
-    ended(Pid, Seconds, Status),
+    ended(Pid, Processor, Seconds, Status),
     results(Results, Suite1),
     left_behind(Suite1, Mark, Left),
     result(Status, Left, Suite1, Result).
@@ -194,14 +197,27 @@ left_behind(suite(_, [], _, []), Mark, Left) :-
 left_behind(_, _, []) :-
     kill_all_left_behind.
 
-ended(Pid, Seconds, Status) :-
-    wait_for_end(Pid, Seconds, Status0),
+%   Prolog catches the signal of a limit of processor time, and may not come to
+%   handle it.
+
+ended(Pid, Processor, Seconds, Status) :-
+    catch(wait_until(over(Pid, Processor, Status0), Seconds),
+          error(timeout_error(wait_until, _), _),
+          Status0 = timeout),
     (   Status0 == timeout
     ->  process_kill(Pid, kill),
         process_wait(Pid, _),
         Status = timeout
     ;   Status = Status0
     ).
+
+over(Pid, _, Status) :-
+    process_wait(Pid, Status, [timeout(0)]),
+    Status \== timeout,
+    !.
+over(Pid, Processor, timeout) :-
+    process_seconds(Pid, Seconds),
+    Seconds > Processor+2.
 
 result(_, Left, Suite, killed(Fault)) :-
     fault(Suite, Left, Fault),

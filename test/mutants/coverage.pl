@@ -303,8 +303,8 @@ load_coverage(File) :-
 %   of the same place in test/, then the quickest. Of predicates that no test is
 %   known to execute, such as those of facts only, the tests that execute another
 %   one of File; if there are none, as for programs of agents, the suites that
-%   a change of File touches, Tests being `all`. Also those of its folder and the
-%   folders above that are newer than the record.
+%   a change of File touches, Tests being `all`. Also those of its folder that are
+%   newer than the record.
 
 suites_of(File, Predicate, Suites) :-
     findall(Suite, executing(File, Predicate, Suite), Executing0),
@@ -358,11 +358,7 @@ newer(File, Time) :-
     member(Time, Times),
     Time = time(Suite, _, _),
     \+ suite(Suite, _, _),
-    file_directory_name(Suite, Folder),
-    folder(File, Place),
-    atom_concat(Folder, /, Above),
-    atom_concat(Place, /, Path),
-    sub_atom(Path, 0, _, _, Above).
+    same_place(File, Suite).
 
 order(File, Suite, Processor, Place-Processor) :-
     (   mirrored(File, Suite)

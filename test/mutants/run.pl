@@ -29,7 +29,7 @@ drawn.
               [promise/5, promise_change/3, promising/2]).
 :- use_module('../lib/changed_files', [changed_files/1]).
 :- use_module('../lib/common', [project_file/2, with_tmp_dir/1]).
-:- use_module('../lib/slowness', [children_seconds/1, measure_slowness/0]).
+:- use_module('../lib/slowness', [children_seconds/1]).
 :- use_module('../../app/typhon/arguments', [arguments/3]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [exclude/3, maplist/3, maplist/4]).
@@ -136,7 +136,6 @@ mutants(Options, Status) :-
     ->  record([])
     ;   true
     ),
-    measure_slowness,
     with_tmp_dir(try(Mutants, Options, Until, Results)),
     report(Mutants, Results, Status).
 
@@ -346,9 +345,9 @@ outcome(_, _, Until, cut_off) :-
     \+ left(Until, _),
     !.
 outcome([suite(Suite, Processor, Seconds, Tests)|Suites], Copy, Until, Outcome) :-
-    Limit is ceiling(20+3*Processor),
+    Limit is ceiling(8+3*Processor),
     left(Until, Left),
-    Deadline is min(Left, 120+5*Seconds),
+    Deadline is min(Left, 60+5*Seconds),
     suite_in_copy(Copy, Suite, Tests, limits(Limit, Deadline), Result),
     (   Result == killed(hangs),
         \+ left(Until, _)

@@ -89,20 +89,25 @@ term_of(In) :-
     ).
 
 waits_for_ever(Result, Dir) :-
-    suite_of(Dir, ":- thread_get_message(never).\n", 1, Result).
+    suite_of(Dir, ":- thread_get_message(never).\n", limits(10, 1), Result).
+
+%   No signal ends it.
+
+never_handles_signals(Result, Dir) :-
+    suite_of(Dir, ":- sig_atomic(( repeat, fail )).\n", limits(1, 1000), Result).
 
 %   As cells do.
 
 limits_itself(Result, Dir) :-
     suite_of(Dir, ":- shell('prlimit --cpu=1000 true', Status), halt(Status).\n",
-             60, Result).
+             limits(10, 60), Result).
 
-suite_of(Dir, Text, Seconds, Result) :-
+suite_of(Dir, Text, Limits, Result) :-
     directory_file_path(Dir, test, Tests),
     make_directory_path(Tests),
     directory_file_path(Tests, 'suite.pl', Runner),
     write_file(Runner, Text),
-    suite_in_copy(Dir, 'test_pack.pl', all, limits(10, Seconds), Result).
+    suite_in_copy(Dir, 'test_pack.pl', all, Limits, Result).
 
 %   first_failure(+Tests, +Dir, -Suite): d would not end.
 
@@ -157,6 +162,8 @@ test(changed_program_is_a_program_with_as_many_lines, Faults == []) :-
             Faults).
 test(suite_that_waits_for_ever_is_ended, Result == killed(hangs)) :-
     with_tmp_dir(waits_for_ever(Result)).
+test(suite_that_computes_for_ever_is_ended, Result == killed(hangs)) :-
+    with_tmp_dir(never_handles_signals(Result)).
 test(suite_may_start_cells,
      [condition(missing([cells], [])), Result == killed(ends(exit(0)))]) :-
     with_tmp_dir(limits_itself(Result)).
