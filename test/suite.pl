@@ -58,8 +58,9 @@ write_results(Results, Suite) :-
 :- multifile user:message_hook/3.
 :- dynamic user:message_hook/3.
 
-user:message_hook(plunit(failed(Unit, Name, _, _)), error, _) :-
+user:message_hook(plunit(failed(Unit, Name, _, _)), error, Lines) :-
     first_failure_to(Results),
+    print_message_lines(user_error, kind(error), Lines),
     write_results(Results, suite(0, [Unit:Name], [], [])),
     halt.
 

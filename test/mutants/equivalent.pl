@@ -44,14 +44,8 @@ equivalent('prolog/typhon/network/children.pl', secret_made/1, bound,
 equivalent('prolog/typhon/options/cell/cell_frames.pl', unlike_numbers/3, bound,
            "7500", "7501",
            "any character near the middle of a block interrupts its digits").
-equivalent('prolog/typhon/kernel/wire/connection.pl', is_normal_break/1, order,
-           "is_normal_break(Formal) :- memberchk(Formal, [ io_error(_, _), \c
-            socket_error(_, _), syntax_error(truncated_frame) ]), !. \c
-            is_normal_break(Formal) :- harmless(Formal)",
-           "is_normal_break(Formal) :- harmless(Formal). \c
-            is_normal_break(Formal) :- memberchk(Formal, [ io_error(_, _), \c
-            socket_error(_, _), syntax_error(truncated_frame) ]), !",
-           "a condition that holds in either case, whichever is tried first").
+equivalent('prolog/typhon/kernel/wire/request.pl', unreadable/2, cut, "!", "true",
+           "the reader handles each frame once").
 
 equivalent('experiments/sync/metrics.pl', gaps/1, order,
            "gaps([]). gaps([task(_, _, _, _, _, none)]) :- !",
@@ -66,6 +60,7 @@ equivalent('experiments/population/metrics.pl', counts/2, order,
 %   so the order of clauses for different values does not matter.
 
 bound_argument('prolog/typhon/kernel/base/monotonic.pl', role/2, 1).
+bound_argument('prolog/typhon/kernel/wire/kinds.pl', ordered/1, 1).
 bound_argument('prolog/typhon/kernel/wire/session.pl', session_to_self/1, 1).
 bound_argument('prolog/typhon/options/fleet/fleet_journal.pl', must_be_open/5, 1).
 bound_argument('prolog/typhon/options/fleet/parking.pl', taken/3, 1).
@@ -76,6 +71,13 @@ bound_argument('prolog/typhon/options/journal/sql.pl', sql/3, 1).
 bound_argument('prolog/typhon/options/migration/strategy.pl', choose/6, 1).
 bound_argument('prolog/typhon/options/quotas/quota_enforcer.pl', kept/2, 1).
 bound_argument('prolog/typhon/tools/page/browser_orders.pl', run_order/3, 1).
+bound_argument('prolog/typhon/tools/page/queries.pl', answer/3, 1).
+
+%   condition(File, Predicate): it is called for one answer, whether any clause
+%   holds, and binds nothing.
+
+condition('prolog/typhon/kernel/wire/connection.pl', is_normal_break/1).
+condition('prolog/typhon/options/guard/allowed.pl', withheld/1).
 
 %!  equivalent_change(+Change, -Reason:string) is semidet.
 
@@ -95,6 +97,9 @@ equivalent_change(Change, "clauses for different values of a bound argument") :-
     changed_clauses(Change, First, Second),
     maplist(argument_of(Argument), [First, Second], [Value1, Value2]),
     Value1 \= Value2.
+equivalent_change(Change, "clauses of a condition that binds nothing") :-
+    Change = change(File, _, _, _, order, Predicate, _),
+    condition(File, Predicate).
 equivalent_change(Change, Reason) :-
     Change = change(File, _, _, _, Kind, Predicate, _),
     equivalent(File, Predicate, Kind, _, _, _),
@@ -219,7 +224,8 @@ changed_clauses(change(File, Start, End, _, order, _, _), First, Second) :-
 %!  outdated_equivalent(-File) is nondet.
 %
 %   A change that is said to be equivalent is no longer one of File, or a
-%   predicate that is said to be called with an argument has no two clauses.
+%   predicate that is said to be a condition, or called with an argument, has no
+%   two clauses.
 
 outdated_equivalent(File) :-
     equivalent(File, Predicate, Kind, Old, New, _),
@@ -229,7 +235,7 @@ outdated_equivalent(File) :-
          Change = change(_, _, _, _, Kind, Predicate, _),
          change_words(Change, Old, New) ).
 outdated_equivalent(File) :-
-    bound_argument(File, Predicate, _),
+    ( bound_argument(File, Predicate, _) ; condition(File, Predicate) ),
     project_file(File, Path),
     file_changes(Path, Changes),
     \+ memberchk(change(_, _, _, _, order, Predicate, _), Changes).

@@ -3,6 +3,7 @@
 :- use_module('../../lib/fixtures').
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
+:- use_module(library(typhon/kernel/program), [declared_meta/3]).
 
 /** <module> Dicts in programs of agents
 
@@ -48,5 +49,14 @@ test(missing_key, X == missing(b)) :-
                    catch(X = M.b, error(existence_error(key, K, _), _),
                          X = missing(K)),
                    leave(got(X)).", X).
+
+test(goals_of_a_library_that_is_not_loaded_are_known,
+     [ condition(\+ current_module(thread)),
+       Metas-Loaded == [concurrent_forall(0, 0), concurrent_maplist(1, +)]-[] ]) :-
+    findall(Meta,
+            ( member(Head, [concurrent_forall(_, _), concurrent_maplist(_, _)]),
+              declared_meta(typhon_vocabulary, Head, Meta) ),
+            Metas),
+    findall(x, current_module(thread), Loaded).
 
 :- end_tests(dict_calls).

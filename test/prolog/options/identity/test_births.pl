@@ -81,6 +81,14 @@ true(Birth) :-
     id(Id),
     birth(alpha, Id, h, Birth).
 
+letters_split(Parts) :-
+    id(Id),
+    endpoint_address(Here),
+    typhon_sender_authorization:split_mail(there, Id,
+        [ mail(Here, 'y.abc-beta.0@beta@127.0.0.1:9', beta),
+          mail(Here, 'y.abc-alpha.0@alpha@127.0.0.1:9', alpha),
+          mail('127.0.0.1:8', Id, elsewhere) ], Parts).
+
 :- begin_tests(births, [setup(made), cleanup(removed)]).
 
 test(owner_signs_births, [cleanup(forgotten), Good == yes]) :-
@@ -138,6 +146,18 @@ test(owner_speaks_for_its_agents, [cleanup(forgotten),
                  forgotten,
                  ( typhon_sender_rights:has_right(Proof, Births, Of) -> R = yes
                  ; R = no ) ), Rights).
+test(letters_for_an_agent_without_birth_go_by_the_homes_of_their_senders,
+     Parts == ['127.0.0.1:9'-[alpha], there-[beta,elsewhere]]) :-
+    with_hosts([g],
+               setup_call_cleanup(
+                   asserta(typhon_transport:current(tls, certificate(beta),
+                                                    certificate(x)), Ref),
+                   letters_split(Parts0),
+                   erase(Ref))),
+    findall(Via-Names,
+            ( member(Via-Mail, Parts0),
+              findall(Name, member(mail(_, _, Name), Mail), Names) ),
+            Parts).
 test(senders_that_are_no_agents_are_accepted, Accepted == [yes,yes,no]) :-
     findall(A, ( member(From, [user,fipa(x, y),_]),
                  ( typhon_sender_rights:sender_accepted('h:1', t(t), From)
