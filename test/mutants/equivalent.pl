@@ -47,6 +47,9 @@ equivalent('prolog/typhon/options/cell/cell_frames.pl', unlike_numbers/3, bound,
 equivalent('prolog/typhon/kernel/wire/request.pl', unreadable/2, cut, "!", "true",
            "the reader handles each frame once").
 
+equivalent('prolog/typhon/options/identity/birth.pl', birth/3, cut, "!", "true",
+           "its caller takes the first birth").
+
 equivalent('experiments/sync/metrics.pl', gaps/1, order,
            "gaps([]). gaps([task(_, _, _, _, _, none)]) :- !",
            "gaps([task(_, _, _, _, _, none)]) :- !. gaps([])",
@@ -60,6 +63,7 @@ equivalent('experiments/population/metrics.pl', counts/2, order,
 %   so the order of clauses for different values does not matter.
 
 bound_argument('prolog/typhon/kernel/base/monotonic.pl', role/2, 1).
+bound_argument('prolog/typhon/kernel/wire/kinds.pl', arrives/6, 3).
 bound_argument('prolog/typhon/kernel/wire/kinds.pl', ordered/1, 1).
 bound_argument('prolog/typhon/kernel/wire/session.pl', session_to_self/1, 1).
 bound_argument('prolog/typhon/options/fleet/fleet_journal.pl', must_be_open/5, 1).

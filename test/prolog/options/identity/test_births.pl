@@ -112,6 +112,14 @@ test(who_has_shown_a_birth_may_send_that_program,
     proved([ p(known, certificate(m), Id, h), p(known, certificate(m), Id, k),
              p(known, certificate(n), Id, h), p(known, certificate(m), y, h) ],
            Proved).
+test(birth_is_sent_to_a_process_that_is_not_known,
+     [cleanup(forgotten), Papers == papers(Birth, sent)]) :-
+    id(Id),
+    true(Birth),
+    assertz(typhon_birth:known(Id, Birth)),
+    with_hosts([g],
+               typhon_birth:papers(g, program(Id, h, '127.0.0.1:9'), sent,
+                                   Papers)).
 test(shown_birth_is_of_the_agent_and_its_program,
      [cleanup(forgotten), Proved == [no,no,no,yes,yes]]) :-
     id(Id),
