@@ -32,7 +32,7 @@ fact; two threads that read it at once store the same.
 */
 
 :- use_module(library(apply), [maplist/2]).
-:- use_module(library(error), [must_be/2, permission_error/3, syntax_error/1]).
+:- use_module(library(error), [permission_error/3, syntax_error/1]).
 :- use_module(library(lists), [max_list/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(sha), [hash_atom/2, hmac_sha/4]).
@@ -155,7 +155,6 @@ record_format(90000, 90299).
 %   @error syntax_error(Message) if a line is no hello
 
 authenticate(Role, In, Out, Hello, Cookie, PeerHello) :-
-    must_be(oneof([client, server]), Role),
     setting(handshake_time, Seconds),
     deadline(Seconds, Deadline),
     thread_self(Me),
