@@ -123,6 +123,27 @@ test(lists_all) :-
     split_string(Core, "", "\n", [Packages]),
     assertion(string_concat(Packages, _, All)).
 
+test(contents_of_roots_are_listed, [ forall(contents_of_root(Names)),
+                                     true(Status == exit(0)) ]) :-
+    run('.ci/install', ['--packages'|Names], [], Status, _).
+
+contents_of_root(Names) :-
+    project_file('test/portability/run', File),
+    read_file_to_string(File, Text, []),
+    findall(Names0, words_after("contents=", Text, Names0), All),
+    assertion(All = [_, _|_]),
+    member(Names, All).
+
+%   Of lines like `contents=core`, `contents="core gpio"`.
+
+words_after(Start, Text, Words) :-
+    split_string(Text, "\n", " ", Lines),
+    member(Line, Lines),
+    string_concat(Start, Value, Line),
+    split_string(Value, "\" ", "\" ", Strings),
+    findall(Word, ( member(String, Strings), String \== "",
+                    atom_string(Word, String) ), Words).
+
 missing(Names, Commands, Output, Dir) :-
     forall(member(Command, [env|Commands]), link_command(Dir, Command)),
     run('.ci/install', ['--missing'|Names], [environment(['PATH'=Dir])],
