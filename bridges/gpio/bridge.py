@@ -17,7 +17,12 @@ for how it is asked.  `do` is one of
 
     edge   pin value        it has another value, and keeps it for `debounce`
 
-Edges go to Prolog in the thread of gpiozero in which they come.
+Edges go to Prolog in the thread of gpiozero in which they come.  A pin that a
+restarted bridge is asked to open, without an answer, and cannot, is said by
+
+    missing   pin message
+
+and is tried again when it is needed.  Whatever a device raises is an answer.
 """
 
 import argparse
@@ -30,7 +35,7 @@ import warnings
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)),
                                 '..', 'lib'))
-from helper import LATER, BadRequest, Helper, Refusal, Unfit, \
+from helper import BadRequest, Helper, Refusal, Unfit, \
     text                                                       # noqa: E402
 
 try:
@@ -148,9 +153,9 @@ class Input(Pin):
             pin.drive_low()
 
     def close(self):
-        super().close()
         if self.settling:
             self.settling.close()
+        super().close()
 
 
 class Settling:
@@ -188,10 +193,14 @@ class Settling:
 
 
 class Thermometer(Pin):
-    """A DS18B20, which needs 0.75 s; simulated, it tells what was set."""
+    """A DS18B20, which needs 0.75 s; simulated, it tells what was set.
+
+    Its thread is its own: others do not wait for one that hangs.
+    """
 
     def __init__(self, request, board):
         self.board, self.value = board, 20.0
+        self.thread = concurrent.futures.ThreadPoolExecutor(1)
         name = request.get('number')
         if not re.fullmatch(r'[0-9a-f]{2}-[0-9a-f]{12}', str(name)):
             raise Refusal('no_pin', 'not the name of a 1-Wire device')
@@ -214,7 +223,7 @@ class Thermometer(Pin):
         self.value = float(value)
 
     def close(self):
-        pass
+        self.thread.shutdown(wait=False)
 
 
 KINDS = {'output': Output, 'pwm': Pwm, 'input': Input,
@@ -226,20 +235,27 @@ class Board(Helper):
         super().__init__()
         self.w1, self.simulated = w1, w1 is None
         self.pins = {}
-        self.slow = concurrent.futures.ThreadPoolExecutor(1)
+        self.missing = {}                   # name: request that opens it
 
     def do_open(self, request, _deadline):
         name, kind = text(request, 'pin'), text(request, 'kind')
         if kind not in KINDS:
             raise BadRequest('kind: %r is not known' % kind)
+        self.missing.pop(name, None)
         if name in self.pins:               # of a caller that has given up
             self.pins.pop(name).close()
-        self.pins[name] = self.device(KINDS[kind], request)
+        try:
+            self.pins[name] = self.device(request)
+        except Exception as problem:
+            if 'id' in request:
+                raise
+            self.missing[name] = request
+            self.event('missing', pin=name, message=str(problem))
         return {}
 
-    def device(self, kind, request):
+    def device(self, request):
         try:
-            return kind(request, self)
+            return KINDS[request['kind']](request, self)
         except gpiozero.GPIOPinInUse as problem:
             raise Refusal('in_use', str(problem)) from None
         except (gpiozero.PinInvalidPin, gpiozero.PinPWMUnsupported,
@@ -254,27 +270,24 @@ class Board(Helper):
 
     def pin(self, request):
         name = text(request, 'pin')
+        if name in self.missing:
+            self.pins[name] = self.device(self.missing[name])
+            del self.missing[name]
         if name not in self.pins:
             raise BadRequest('pin: there is no %r' % name)
         return self.pins[name]
 
     def do_close(self, request, _deadline):
-        self.pin(request).close()
-        del self.pins[request['pin']]
+        if self.missing.pop(text(request, 'pin'), None) is None:
+            self.pin(request).close()
+            del self.pins[request['pin']]
         return {}
 
     def do_read(self, request, _deadline):
         pin = self.pin(request)
         if isinstance(pin, Thermometer):
-            self.slow.submit(self.measure, pin, request)
-            return LATER
+            return self.later(pin.thread, request, pin.read)
         return pin.read()
-
-    def measure(self, pin, request):
-        try:
-            self.reply(request, pin.read())
-        except Refusal as problem:
-            self.reply(request, problem)
 
     def do_write(self, request, _deadline):
         self.pin(request).write(number(request, 'value', -1e6, 1e6))
@@ -289,9 +302,13 @@ class Board(Helper):
         return {}
 
     def abandoned(self):
-        """Pins are inputs again, as before."""
-        for pin in self.pins.values():
-            pin.close()
+        """Pins are inputs again, as before; one that fails keeps no other."""
+        for name, pin in self.pins.items():
+            try:
+                pin.close()
+            except Exception as problem:
+                print('%s: not released: %s' % (name, problem),
+                      file=sys.stderr)
 
 
 def main():

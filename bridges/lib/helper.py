@@ -27,7 +27,8 @@ A helper is a subclass with a method for each `do`:
     Greeter(threads=4).run()
 
 A method may return LATER and say `self.reply(request, answer)` when there
-is one, or `self.reply(request, Refusal(...))`, in any thread.
+is one, or `self.reply(request, Refusal(...))`, in any thread.  With
+`return self.later(pool, request, function)` a thread of a pool answers.
 
 A library that runs callbacks in a thread of its own often does so under its
 own locks.  So a callback must not take a lock that is held around a call of
@@ -375,11 +376,15 @@ class Helper:
                              'message': str(problem)})
 
     def answer(self, job):
+        job.request['job'] = job
+        return self.outcome(job, self.do, job.request, job.deadline)
+
+    def outcome(self, job, function, /, *arguments):
+        """What function returns or raises, as an answer."""
         try:
             if time.monotonic() >= job.deadline:
                 raise Refusal('timeout', 'not done: others took too long')
-            job.request['job'] = job
-            done = self.do(job.request, job.deadline)
+            done = function(*arguments)
             return done if done is LATER else {'ok': done}
         except Refusal as problem:
             return self.refused(problem)
@@ -399,6 +404,18 @@ class Helper:
         if job.first():
             self.say(job, self.refused(answer)
                      if isinstance(answer, Refusal) else {'ok': answer})
+
+    def later(self, pool, request, function, /, *arguments):
+        """Have a thread of pool answer a request, with what function does."""
+        job = request['job']
+
+        def work():
+            answer = self.outcome(job, function, *arguments)
+            if job.first():
+                self.say(job, answer)
+
+        pool.submit(work)
+        return LATER
 
     def late(self, job):
         """The deadline has passed; its method may never return."""

@@ -18,7 +18,7 @@
 /** <module> Pins of a board on a host
 
 The helper bridges/gpio/bridge.py has the pins.  A restarted helper opens them
-again, with their initial values.
+again, with their initial values; those that it cannot open when they are used.
 
 *Threading*: any thread; predicates of agents run in the thread of the agent.
 The thread that reads from the helper delivers edges.
@@ -29,7 +29,8 @@ The thread that reads from the helper delivers edges.
     typhon_starting:ends/2,
     typhon_helper_owner:again/2,
     typhon_helper_owner:handle_message/2,
-    typhon_options:declared/4.
+    typhon_options:declared/4,
+    prolog:message//1.
 
 :- dynamic
     started/2,                  % Host, Options
@@ -215,10 +216,10 @@ formal(no_gpiozero, _, _, existence_error(python_module, gpiozero)).
 formal(no_pins, Host, _, gpio_error(no_pins, Host)).
 formal(silent, Host, _, gpio_error(silent, Host)).
 formal(exception, Host, _, gpio_error(failed, Host)).
-formal(no_pin, _, Request, existence_error(gpio_pin, Number)) :-
-    get_dict(number, Request, Number).
-formal(in_use, _, Request, permission_error(use, gpio_pin, Number)) :-
-    get_dict(number, Request, Number).
+formal(no_pin, Host, Request, existence_error(gpio_pin, Number)) :-
+    number_of_pin(Host, Request, Number).
+formal(in_use, Host, Request, permission_error(use, gpio_pin, Number)) :-
+    number_of_pin(Host, Request, Number).
 formal(direction, _, Request, permission_error(Do, pin, Name)) :-
     _{do:Do, pin:Name} :< Request.
 formal(real, _, Request, permission_error(drive, pin, Name)) :-
@@ -227,6 +228,11 @@ formal(value, _, Request, domain_error(pin_value, Value)) :-
     get_dict(value, Request, Value).
 formal(timeout, Host, Request, timeout_error(gpio(Name), Host)) :-
     get_dict(pin, Request, Name).
+
+number_of_pin(Host, Request, Number) :-
+    get_dict(pin, Request, Name),
+    known_pin(Host, Name, _, Opening),
+    get_dict(number, Opening, Number).
 
 typhon_helper_owner:again(gpio(Host), Request) :-
     known_pin(Host, _, _, Request).
@@ -238,6 +244,12 @@ typhon_helper_owner:handle_message(gpio(Host), Dict) :-
     atom_string(Name, Text),
     !,
     subscribers_notify(gpio, Host, Name, edge(Name, Value), edge(Name, _)).
+typhon_helper_owner:handle_message(gpio(Host), Dict) :-
+    _{event:"missing", pin:Pin, message:Text} :< Dict,
+    print_message(warning, typhon(gpio_pin_missing(Host, Pin, Text))).
+
+prolog:message(typhon(gpio_pin_missing(Host, Pin, Text))) -->
+    [ 'GPIO on ~w: the pin ~w cannot be opened again: ~w'-[Host, Pin, Text] ].
 
 %   is_value(+Kind, +Value): the helper may report Value.
 
@@ -274,6 +286,8 @@ is_value(_, Value) =>
 %
 %   @error existence_error(pin, Name), domain_error(pin_value, Value),
 %   gpio_error(silent, Host) if a thermometer does not answer,
+%   gpio_error(failed, Host) if the device fails, those of gpio_start/3 if the
+%   restarted helper could not open the pin again,
 %   timeout_error(gpio(Name), Host), helper_died(Status, gpio(Host))
 
 pin(Name, Value) :-

@@ -16,7 +16,8 @@ trusted.
 :- use_module(library(filesex), [chmod/2, directory_file_path/3,
                                  make_directory_path/1]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(process), [process_kill/2]).
+:- use_module(library(process), [process_create/3, process_kill/2]).
+:- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/bridges/helper), [helper_pid/2]).
 
@@ -80,6 +81,23 @@ kill_helper :-
     process_kill(Pid, kill),
     wait_until(( helper_pid(gpio(alpha), Other), Other =\= Pid ), 20).
 
+%   with_thermometer(+Text, -File, :Goal): File is what the kernel shows of the
+%   thermometer `air` of alpha, at first Text.
+
+:- meta_predicate with_thermometer(+, -, 0).
+
+with_thermometer(Text, File, Goal) :-
+    with_tmp_dir(Dir,
+                 ( thermometer(Dir, '28-00000a1b2c3d', Text, File),
+                   at_board([air=thermometer('28-00000a1b2c3d')],
+                            [factory(mock),w1(Dir)], Goal) )).
+
+thermometer(Dir, Name, Text, File) :-
+    directory_file_path(Dir, Name, Device),
+    make_directory_path(Device),
+    directory_file_path(Device, temperature, File),
+    write_file(File, Text).
+
 :- begin_tests(gpio_pins).
 
 test(outputs, Values == [0,1,0,1]) :-
@@ -124,17 +142,6 @@ test(silent_thermometer, Error == gpio_error(silent, alpha)) :-
 test(pins_of_a_host, Pins == [led=output, door=input, fan=pwm]) :-
     at_board([led=output(17), door=input(4), fan=pwm(18)],
              remote(alpha, pins(Pins))).
-
-:- meta_predicate with_thermometer(+, -, 0).
-
-with_thermometer(Text, File, Goal) :-
-    with_tmp_dir(Dir,
-                 ( directory_file_path(Dir, '28-00000a1b2c3d', Device),
-                   make_directory_path(Device),
-                   directory_file_path(Device, temperature, File),
-                   write_file(File, Text),
-                   at_board([air=thermometer('28-00000a1b2c3d')],
-                            [factory(mock),w1(Dir)], Goal) )).
 
 :- end_tests(gpio_pins).
 
@@ -261,6 +268,108 @@ test(machine_without_pins, Error == gpio_error(no_pins, alpha)) :-
     start_error([a=output(17)], [factory(native)], Error).
 
 :- end_tests(gpio_errors).
+
+%   Devices fail, and the helper goes on.
+
+:- begin_tests(gpio_failures).
+
+test(failure_of_each_request_is_its_error,
+     Failed-Later == [F,F,F,F,F,F,F,F]-[none,none,none,none,none,none,none]) :-
+    F = gpio_error(failed, alpha),
+    with_tmp_dir(Dir, ( directory_file_path(Dir, broken, Broken),
+                        failing_board(Dir, Broken, Failed, Later) )).
+
+failing_board(Dir, Broken, Failed, Later) :-
+    Requests = [ pin(a, 1), pin(a, _), pin(f, 0.5), pin(f, _), pin(i, _),
+                 pin_drive(i, 1), pin_close(o) ],
+    format(string(Code),
+           "def failing(method):
+    def call(*given):
+        if os.path.exists('~w'):
+            raise OSError(121, 'Remote I/O error')
+        return method(*given)
+    return call
+for name in ['_get_state', '_set_state', '_set_function', 'drive_high']:
+    for pin in [MockPin, MockPWMPin]:
+        setattr(pin, name, failing(getattr(pin, name)))", [Broken]),
+    with_patched(Dir, Code,
+                 [a=output(17), f=pwm(18), i=input(4), o=output(22)],
+                 [open(true)],
+                 ( helper_pid(gpio(alpha), Pid),
+                   write_file(Broken, ""),
+                   errors([pin_open(b, output(23))|Requests], Failed),
+                   delete_file(Broken),
+                   errors(Requests, Later),
+                   helper_pid(gpio(alpha), Pid) )).
+
+errors(Goals, Errors) :-
+    findall(Error, ( member(Goal, Goals), error_of(Goal, Error) ), Errors).
+
+test(pin_that_fails_keeps_no_other_from_its_release, Text == "18") :-
+    with_tmp_dir(Dir,
+                 ( directory_file_path(Dir, released, File),
+                   release(Dir, File, Text) )).
+
+release(Dir, File, Text) :-
+    format(string(Code),
+           "def close(pin):
+    if pin.number == 17:
+        raise OSError(121, 'Remote I/O error')
+    with open('~w', 'a') as stream:
+        stream.write(str(pin.number))
+MockPin.close = MockPWMPin.close = close", [File]),
+    with_patched(Dir, Code, [a=output(17), b=output(18)], [],
+                 gpio_stop(alpha)),
+    read_file_to_string(File, Text, []).
+
+test(unplugged_thermometer_is_silent_until_it_is_back,
+     Error-Value == gpio_error(silent, alpha)-21.437) :-
+    with_thermometer("21437\n", File,
+                     ( delete_file(File), error_of(pin(air, _), Error),
+                       write_file(File, "21437\n"), value(air, Value) )).
+test(pin_that_a_restarted_helper_lacks_is_opened_when_it_is_back,
+     Error-Value == existence_error(gpio_pin, '28-00000a1b2c3d')-21.437) :-
+    with_thermometer("21437\n", File,
+                     capturing(( delete_file(File), kill_helper,
+                                 error_of(pin(air, _), Error),
+                                 write_file(File, "21437\n"),
+                                 value(air, Value) ), Messages)),
+    assertion(memberchk(warning-typhon(gpio_pin_missing(alpha, "air", _)),
+                        Messages)).
+test(thermometer_that_hangs_stops_no_other,
+     Error-Value == timeout_error(gpio(air), alpha)-21.437) :-
+    with_tmp_dir(Dir, hanging(Dir, Error, Value)).
+
+%   A pipe that no process writes to hangs.
+
+hanging(Dir, Error, Value) :-
+    thermometer(Dir, '28-00000a1b2c3d', "21437\n", File),
+    thermometer(Dir, '28-00000a1b2c3e', "21437\n", _),
+    delete_file(File),
+    process_create(path(mkfifo), [File], []),
+    at_board([ air=thermometer('28-00000a1b2c3d'),
+               cellar=thermometer('28-00000a1b2c3e') ],
+             [factory(mock),w1(Dir),timeout(3)],
+             ( error_of(pin(air, _), Error), value(cellar, Value) )).
+
+:- meta_predicate with_patched(+, +, +, +, 0).
+
+%   with_patched(+Dir, +Code, +Pins, +Options, :Goal): Code changes the
+%   simulated board before the bridge begins.
+
+with_patched(Dir, Code, Pins, Options, Goal) :-
+    directory_file_path(Dir, patched, File),
+    write_file(File, "#!/usr/bin/python3
+import os, runpy, sys
+from gpiozero.pins.mock import MockPin, MockPWMPin
+~w
+sys.argv = sys.argv[2:]
+runpy.run_path(sys.argv[0], run_name='__main__')
+", [Code]),
+    chmod(File, +x),
+    at_board(Pins, [factory(mock),python(File)|Options], Goal).
+
+:- end_tests(gpio_failures).
 
 :- begin_tests(gpio_document).
 

@@ -67,16 +67,27 @@ test(helper_without_its_packages_is_not_restarted,
 test(late_answer_leaves_one_serving_thread,
      Answers == [said("timeout"),ok(1),ok(1)]) :-
     no_leaks(with_tmp_dir(late(Answers))).
+test(exception_in_a_pool_is_the_answer, Answer == said("exception")) :-
+    no_leaks(with_tmp_dir(with_slow(answer(unplugged, 20, Answer)))).
 
 %   A method past its deadline that announces a later answer has been replaced.
 %   Two calls of `meet` at once would count each other.
 
 late([Slow,First,Second], Dir) :-
+    with_slow(( answer(slow, 0.2, Slow),
+                concurrent(2, [answer(meet, 5, First), answer(meet, 5, Second)],
+                           []) ),
+              Dir).
+
+:- meta_predicate with_slow(0, +).
+
+with_slow(Goal, Dir) :-
     directory_file_path(Dir, 'slow.py', File),
     helper_file('lib/helper.py', Lib),
     file_directory_name(Lib, Path),
     write_file(File, 'import sys, threading, time~n\c
                       sys.path.insert(0, "~w")~n\c
+                      from concurrent.futures import ThreadPoolExecutor~n\c
                       from helper import Helper, LATER~n\c
                       class Slow(Helper):~n\c
                       \x20   met, gone = 0, threading.Event()~n\c
@@ -89,13 +100,14 @@ late([Slow,First,Second], Dir) :-
                       \x20       time.sleep(0.5)~n\c
                       \x20       met, self.met = self.met, 0~n\c
                       \x20       return met~n\c
+                      \x20   def do_unplugged(self, request, deadline):~n\c
+                      \x20       pool = ThreadPoolExecutor(1)~n\c
+                      \x20       return self.later(pool, request, open, "/x")~n\c
                       Slow().run()~n', [Path]),
     helper_python([], Python),
     setup_call_cleanup(
         helper_open(slow, command(Python, [File]), []),
-        ( answer(slow, 0.2, Slow),
-          concurrent(2, [answer(meet, 5, First), answer(meet, 5, Second)], [])
-        ),
+        Goal,
         helper_close(slow)).
 
 answer(Do, Seconds, Short) :-
