@@ -19,7 +19,7 @@ input. Options:
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(settings), [set_setting/2]).
+:- use_module(library(settings), [set_setting/2, setting/2]).
 :- use_module(library(main), [argv_options/3]).
 :- use_module(library(prolog_wrap), [wrap_predicate/4]).
 
@@ -155,6 +155,16 @@ send_in_background(Id, Count) :-
 hurried :-
     patience(0.3, Seconds),
     set_setting(typhon_connection_manager:connect_time, Seconds).
+
+%   A connection does not end because the machine is slow.
+
+unhurried :-
+    forall(member(Setting, [ typhon_connection_manager:connect_time,
+                             typhon_handshake:handshake_time,
+                             typhon_reader:silence ]),
+           ( setting(Setting, Seconds0),
+             patience(Seconds0, Seconds),
+             set_setting(Setting, Seconds) )).
 
 %   This process opens no connections: others do.
 

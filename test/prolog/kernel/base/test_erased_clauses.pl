@@ -3,11 +3,12 @@
 :- use_module('../../../lib/common', [project_file/2, run_swipl/5]).
 
 % Each hop erases the clauses of a state. A process of its own, because what was
-% loaded before leaves references to erased clauses.
+% loaded before leaves references to erased clauses.  Otherwise 80 to 110 times; by
+% qemu some 45, as references remain that elsewhere vanish after the first.
 
 :- begin_tests(erased_clauses).
 
-test(hops_do_not_collect_atoms, true(Collections < 10)) :-
+test(hops_do_not_collect_atoms, true(Collections < 65)) :-
     does('host_start(a), host_start(b), \c
           agent_create(clauses([ (:- agent(x, [state([left/1])])), left(2000), \c
                                  (main :- left(0), !), \c

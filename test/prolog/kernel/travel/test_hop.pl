@@ -264,14 +264,16 @@ dispose_hopping(Rounds) :-
 :- begin_tests(hop_program).
 
 test(program_travels_once) :-
-    with_peers([a, b], programs_sent_once).
+    with_peers([a-[setup(unhurried)], b-[setup(unhurried)]],
+               programs_sent_once).
 test(program_is_requested_again) :-
     with_peers([a, b-[setup(set_setting(typhon_code:programs, 0))]],
                programs_evicted).
 
 :- end_tests(hop_program).
 
-%   Programs in the frames that arrive at b are counted there.
+%   Programs in the frames that arrive at b are counted there: one for a
+%   connection.
 
 programs_sent_once :-
     peer_host(a, A),
