@@ -288,7 +288,17 @@ timer_signal(Goal) :-
            catch(thread_signal(Timer, Goal),
                  error(existence_error(_, _), _), true)).
 
-:- begin_tests(no_threads, [condition(exists_file('/usr/bin/prlimit'))]).
+%   space_is_limited is semidet: not by qemu, where threads would be made until
+%   the memory of the machine is full.
+
+space_is_limited :-
+    exists_file('/usr/bin/prlimit'),
+    process_create(path(prlimit), ['--as=4096', true],
+                   [ stderr(null), process(Pid) ]),
+    process_wait(Pid, Status),
+    Status \== exit(0).
+
+:- begin_tests(no_threads, [condition(space_is_limited)]).
 
 %   without_threads(:Goal): no new thread can be made, since there is no space
 %   for its stack; existing threads have started, and have their stacks.
