@@ -82,9 +82,12 @@ check(_, gpiozero, Found) :-
     python_says('import importlib.metadata as m; print(m.version("gpiozero"))',
                 gpiozero, Found).
 check(_, pins, Found) :-
-    python_says('import warnings, gpiozero; warnings.simplefilter("ignore"); \c
-                 print(type(gpiozero.Device._default_pin_factory()).__name__)',
-                pins, Found).
+    catch(python_says('import warnings, gpiozero; \c
+                       warnings.simplefilter("ignore"); \c
+                       print(type(gpiozero.Device._default_pin_factory()) \c
+                             .__name__)', pins, Found),
+          error(existence_error(python_module, pins), _),
+          throw(error(gpio_error(no_pins, localhost), _))).
 check(python-_, function, Found) :-
     helper_file('python/hello.py', File),
     python_start(diagnosed, File, []),
