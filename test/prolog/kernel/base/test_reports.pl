@@ -2,6 +2,7 @@
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/texts').
 :- use_module('../../../lib/fixtures').
+:- use_module('../../../lib/slowness', [patience/2]).
 :- use_module(library(plunit)).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [member/2]).
@@ -75,7 +76,10 @@ reports(Count, Group) :-
 
 test(agent_causes_one_message_for_each_second, Sum-Few == 6000-true) :-
     get_time(T0),
-    capturing(with_hosts([ g-[policy(guarded), cell(none)] ], flood), Messages),
+    patience(5, Seconds),
+    capturing(with_hosts([ g-[ policy(guarded), cell(none),
+                               quota([seconds(Seconds)]) ] ],
+                         flood), Messages),
     get_time(T1),
     findall(M, flood_message(M, Messages), Ms),
     aggregate_all(sum(N), ( member(M, Ms), count_of(M, N) ), Sum),
