@@ -52,7 +52,7 @@ inherit its blocked signals, SIGINT for one.
 %   idle.
 
 suites_at_a_time(3, 8).
-idle_share(0.15).                       % of the time of all processors
+idle_share(0.08).                       % of the time of all processors
 
 %   In seconds, more on a slow machine; `make fuzz-programs` takes longer.
 
