@@ -6,6 +6,7 @@
 :- use_module(library(lists), [list_to_set/2, max_list/2, member/2, min_list/2, selectchk/3]).
 :- use_module('../../prolog/typhon', [network_property/2, network_stop/1]).
 :- use_module('../../prolog/typhon/kernel/base/private', [private_folder/2]).
+:- use_module('../../prolog/typhon/network/log_file', [log_size/2]).
 :- use_module(cases, [parameters/3, study_cases/3]).
 :- use_module(follow, [new_lines/4]).
 :- use_module(run, [case_begins/5, study_network/4, study_run/3, study_view/3]).
@@ -133,7 +134,10 @@ around(Value, range(From, To, Step)) :-
                 *           MEASURES           *
                 *******************************/
 
+%   Also events that are not written to File yet.
+
 take_events(File) :-
+    log_size(File, _),
     retract(seen_to(Position0)),
     new_lines(File, Position0, Position, Lines),
     assertz(seen_to(Position)),

@@ -8,6 +8,7 @@
 :- use_module('../../lib/browser').
 :- use_module('../../lib/fixtures').
 :- use_module('../../lib/pages').
+:- use_module('../../lib/texts', [write_file/2]).
 :- use_module('../../../experiments/engine/cases', [study_cases/3]).
 :- use_module('../../../experiments/engine/live').
 :- use_module('../../../experiments/engine/run', [run_log/5]).
@@ -89,6 +90,11 @@ test(same_measures_as_a_run, Live == Own) :-
     findall([Label, Text], ( member([Label, Value], Rows),
                              format(string(Text), "~4f", [Value]) ), Live).
 
+%   The thread that writes the log is held up for a second.
+
+test(measures_have_all_events_of_the_run, Measures == [said-100]) :-
+    no_leaks(with_tmp_dir(talk(Measures))).
+
 test(values_grow_while_it_runs) :-
     page(Base, ( begin(Base, _{side:"7"}),
                  model(Base, _{}, First),
@@ -143,6 +149,32 @@ test(view) :-
                               forall(clause(scene(Browser), Goal), Goal) ))).
 
 :- end_tests(live_study).
+
+talk(Measures, Dir) :-
+    directory_file_path(Dir, 'talk.pl', File),
+    write_file(File, "
+:- use_module(library(typhon)).
+:- use_module(library(aggregate)).
+study(talk, \"An agent that logs\").
+network(_, ring(1), []).
+run(_, Network) :-
+    network_property(Network, hosts([Host])),
+    forall(( thread_property(Thread, alias(Alias)),
+             sub_atom(Alias, 0, _, _, typhon_log_writer) ),
+           thread_signal(Thread, sleep(1))),
+    agent_create(clauses([ (:- agent(talker)),
+                           (main :- forall(between(1, 100, N), log(N))) ]),
+                 Agent, [host(Host)]),
+    agent_join(Agent, done, 100).
+measure(said, Log, Count) :-
+    aggregate_all(count,
+                  ( member(event(_, _, _, N), Log.events), integer(N) ),
+                  Count).
+"),
+    study_load(File, Study),
+    setup_call_cleanup(live(Study, set_up([seed-1])),
+                       ( live(Study, run), live(Study, measures(Measures)) ),
+                       live(Study, end)).
 
 step(Base, Count) :-
     forall(between(1, Count, _), order(Base, _{do:"step"})).
