@@ -118,7 +118,9 @@ taken(Fleet, Got, Age) :-
     is_up(Fleet),
     (   Got = connection(_),
         thread_get_message(Idle, Got, [timeout(0)])
-    ->  Age = old
+    ->  Age = old,
+        arg(1, Got, C),
+        ignore(limit(C))                % the setting may have changed
     ;   Age = new,
         connect_in_thread(Fleet, Idle, Options),
         setting(typhon_fleet:engine_seconds, Seconds),

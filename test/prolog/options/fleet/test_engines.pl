@@ -431,6 +431,13 @@ test(member_without_the_engine_is_away_and_hops_go_on, Outcome == done) :-
                proxy_release(Proxy, down),
                up([alpha,beta]) )).
 
+test(seconds_for_which_an_engine_is_asked_are_those_of_now,
+     throws(error(resource_error(fleet(lab)), _))) :-
+    set_setting(typhon_fleet:engine_seconds, 100 000),
+    with_fleet([], Redis, [],
+               setup_call_cleanup(redis_signal(Redis, stop),    % 2 seconds
+                                  fleet_hosts(lab, _, []),
+                                  redis_signal(Redis, cont))).
 test(connections_that_break_do_not_matter) :-
     with_cut(Proxy,
              ( forall(between(1, 5, _),
