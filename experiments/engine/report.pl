@@ -100,7 +100,7 @@ spread_text(_, _, '').
 print_claim(Stream, Outcome, claim(Text, _, Held, Of, OfMedians, Found)) :-
     held_text(Held, Of, Outcome.seeds, Word),
     medians_text(Held, Of, OfMedians, Medians),
-    format(Stream, '  ~w~t~22|~w~w~n~22|~w~n', [Word, Text, Medians, Found]),
+    format(Stream, '  ~w ~t~22|~w~w~n~22|~w~n', [Word, Text, Medians, Found]),
     (   evidence(Text, Outcome.tests, Evidence)
     ->  format(Stream, '~22|~w~n', [Evidence])
     ;   true

@@ -244,6 +244,9 @@ listed(Dir, File) :-
     study_command(Dir, [ File, '--collect', '--runs', 1, '--out', 'o u t' ],
                   exit(0), Shown),
     has(Shown, ["1  it is     1  13", "2  x         1  23", "held"]),
+    study_command(Dir, [ File, '--collect', '--runs', 2, '--out', 'o u t' ],
+                  exit(1), Half),
+    has(Half, ["held in 1 of 2, 1 not known m grows"]),
     forall(nth1(1, Commands, Command), assertion(shell_in('/', Command))).
 
 shell_in(Dir, Command) :-
