@@ -25,6 +25,9 @@ equivalent('prolog/typhon/options/cell/cells.pl', give/2, goal,
            "key_without_cell(_)", "true",
            "the server of the cells wakes, and finds nothing to do").
 
+equivalent('prolog/typhon/network/saving.pl', must_be_ours/2, cut, "!", "true",
+           "what follows raises errors, and does not fail").
+
 equivalent('prolog/typhon/network/log.pl', write_event/4, cut, "!", "true",
            "the server takes the first state that its handler gives").
 
