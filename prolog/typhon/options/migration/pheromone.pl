@@ -5,7 +5,7 @@
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(apply), [convlist/3, exclude/3, maplist/2]).
+:- use_module(library(apply), [convlist/3, maplist/2]).
 :- use_module(library(error), [is_of_type/2, must_be/2, resource_error/1]).
 :- use_module(library(lists), [member/2, same_length/2, subtract/3]).
 :- use_module(library(option), [option/3]).
@@ -271,7 +271,7 @@ withdraw_here(Problem) :-
 spread_withdrawal(Host-Place, Source, Problem) :-
     host(Host, _, Place),
     host_neighbours(Host, Neighbours),
-    exclude(==(Source), Neighbours, Hosts),
+    subtract(Neighbours, [Source], Hosts),
     inform(Hosts, withdrawn(Source, Problem)).
 
 %!  pheromone_here(?Problem, -Source, -Strength) is nondet.
