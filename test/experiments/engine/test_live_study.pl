@@ -90,7 +90,7 @@ test(same_measures_as_a_run, Live == Own) :-
     findall([Label, Text], ( member([Label, Value], Rows),
                              format(string(Text), "~4f", [Value]) ), Live).
 
-%   The thread that writes the log is held up for a second.
+%   The thread that writes the log waits until it is asked to have written all.
 
 test(measures_have_all_events_of_the_run, Measures == [said-100]) :-
     no_leaks(with_tmp_dir(talk(Measures))).
@@ -150,6 +150,12 @@ test(view) :-
 
 :- end_tests(live_study).
 
+:- public until_asked/0.
+
+until_asked :-
+    wait_until(( message_queue_property(Queue, size(_)),
+                 thread_peek_message(Queue, call(flush, _)) ), 20).
+
 talk(Measures, Dir) :-
     directory_file_path(Dir, 'talk.pl', File),
     write_file(File, "
@@ -161,7 +167,7 @@ run(_, Network) :-
     network_property(Network, hosts([Host])),
     forall(( thread_property(Thread, alias(Alias)),
              sub_atom(Alias, 0, _, _, typhon_log_writer) ),
-           thread_signal(Thread, sleep(1))),
+           thread_signal(Thread, test_live_study:until_asked)),
     agent_create(clauses([ (:- agent(talker)),
                            (main :- forall(between(1, 100, N), log(N))) ]),
                  Agent, [host(Host)]),
