@@ -22,11 +22,10 @@ inherit its blocked signals, SIGINT for one.
 :- use_module('lib/common', [project_file/2, wait_until/2, with_tmp_dir/1]).
 :- use_module('lib/left_behind',
               [ kill_all_left_behind/0, kill_left_behind/2, suite_mark/2 ]).
+:- use_module('lib/process_stat', [children_seconds/1]).
 :- use_module('lib/quick_swipl', [quick_swipl/3]).
-:- use_module('lib/slowness',
-              [children_seconds/1, measure_slowness/0, patience/2]).
+:- use_module('lib/slowness', [measure_slowness/0, patience/2]).
 :- use_module('lib/suites',
-              
               [ all_suites/1, left_out_suites/2, of_studies/1, runs_plainly/1,
                 suite_named/2 ]).
 :- use_module('lib/touched', [suite_times/1]).

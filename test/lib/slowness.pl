@@ -1,12 +1,8 @@
 :- module(test_slowness,
           [ measure_slowness/0,
             slowness/1,                 % -Factor
-            patience/2,                 % +Seconds, -Longer
-            process_seconds/2,          % +Pid, -Seconds
-            children_seconds/1          % -Seconds
+            patience/2                  % +Seconds, -Longer
           ]).
-:- use_module(library(lists), [append/3, last/2]).
-:- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(terms), [mapsubterms/3]).
 
 /** <module> How slow this machine is
@@ -113,32 +109,3 @@ system:goal_expansion(Goal, Longer) :-
     sub_atom(File, _, _, _, '/test/').
 
 :- endif.
-
-%!  process_seconds(+Pid, -Seconds) is det.
-%!  children_seconds(-Seconds) is det.
-%
-%   The processor time of a process, or of the processes that this one waited for,
-%   and of those that they waited for.  0.0 where there is no /proc.
-
-process_seconds(Pid, Seconds) :-
-    seconds_of(Pid, 12, Seconds).
-
-children_seconds(Seconds) :-
-    seconds_of(self, 14, Seconds).
-
-%   After the name of the program, which may hold spaces, are the state and
-%   numbers: two of them, from the First on, the ticks of user and system.
-
-seconds_of(Process, First, Seconds) :-
-    format(atom(File), '/proc/~w/stat', [Process]),
-    catch(read_file_to_string(File, Text, []), error(_, _), fail),
-    split_string(Text, ")", " \n", Parts),
-    last(Parts, Rest),
-    split_string(Rest, " ", "", Words),
-    append(Before, [User, System|_], Words),
-    length([_|Before], First),
-    !,
-    number_string(U, User),
-    number_string(S, System),
-    Seconds is (U+S)/100.0.
-seconds_of(_, _, 0.0).

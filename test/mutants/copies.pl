@@ -13,7 +13,7 @@ Files are named from the directory of the project on: `prolog/typhon.pl`.
 
 :- use_module('../lib/common',
               [project_file/2, wait_until/2, with_tmp_dir/1]).
-:- use_module('../lib/slowness', [process_seconds/2]).
+:- use_module('../lib/process_stat', [process_seconds/2]).
 :- use_module('../lib/left_behind',
               [ kill_all_left_behind/0, kill_left_behind/2, suite_mark/2 ]).
 :- use_module('../lib/suites', [of_studies/1, runs_plainly/1]).

@@ -29,7 +29,7 @@ drawn.
               [promise/5, promise_change/3, promising/2]).
 :- use_module('../lib/changed_files', [changed_files/1]).
 :- use_module('../lib/common', [project_file/2, with_tmp_dir/1]).
-:- use_module('../lib/slowness', [children_seconds/1]).
+:- use_module('../lib/process_stat', [children_seconds/1]).
 :- use_module('../../app/typhon/arguments', [arguments/3]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [exclude/3, maplist/3, maplist/4]).

@@ -4,10 +4,11 @@
 :- needs([cells]).
 :- use_module('../../../lib/fixtures').
 :- use_module('../../../lib/peers').
+:- use_module('../../../lib/process_stat', [process_nice/2]).
 :- use_module(library(plunit)).
 :- use_module(library(filesex), [chmod/2, directory_file_path/3]).
 :- use_module(library(lists),
-              [last/2, member/2, nth1/3, numlist/3, subtract/3, sum_list/2]).
+              [member/2, numlist/3, subtract/3, sum_list/2]).
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(readutil), [read_file_to_string/3, read_file_to_terms/3]).
 :- use_module(library(typhon)).
@@ -147,7 +148,7 @@ test(services_of_the_place_are_available, Result == [2,4]-no) :-
 test(cells_have_low_priority,
      [condition(exists_file('/proc/self/autogroup')),
       true(Session-Process == "10"-Low)]) :-
-    nice_of(self, Own),
+    process_nice(self, Own),
     Low is min(19, Own+10),
     cell(( create([(main :- receive(_))], A, [host(c)]),
            wait_state(A, waiting),
@@ -468,16 +469,7 @@ cell_session_nice(Nice) :-
 
 cell_nice(Nice) :-
     busy_cell(Child),
-    nice_of(Child, Nice).
-
-nice_of(Process, Nice) :-
-    format(atom(File), '/proc/~w/stat', [Process]),
-    read_file_to_string(File, Text, []),
-    split_string(Text, ")", "", Parts),
-    last(Parts, Rest),
-    split_string(Rest, " ", " ", Words),
-    nth1(17, Words, Word),
-    number_string(Nice, Word).
+    process_nice(Child, Nice).
 
 busy_cell(Child) :-
     cells_list(Cells),
