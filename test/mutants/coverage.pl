@@ -33,10 +33,10 @@ there, too.
 :- use_module(library(assoc), [empty_assoc/1, get_assoc/3, put_assoc/4]).
 :- use_module(library(filesex),
               [directory_file_path/3, directory_member/3, make_directory_path/1]).
-:- use_module(library(lists), 
+:- use_module(library(lists),
               [ append/3, last/2, list_to_set/2, member/2, memberchk/2, nth0/3,
                 nth1/3, sum_list/2 ]).
-:- use_module(library(pairs), 
+:- use_module(library(pairs),
               [ group_pairs_by_key/2, pairs_keys_values/3, pairs_values/2 ]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(readutil), [read_file_to_string/3, read_file_to_terms/3]).
